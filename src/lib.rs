@@ -5,3 +5,9 @@
 
 pub mod error;
 pub mod knots;
+
+pub mod basis;
+
+pub mod curve;
+
+pub mod surface;
