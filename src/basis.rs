@@ -95,3 +95,35 @@ fn differentiate(around: &[f64], degree: usize, grown: usize, row: &mut [f64]) {
     }
     row[grown] = saved;
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_cubic_bernstein_polynomials_and_their_derivatives_come_out() {
+        let knots = Knots::new(&[0., 0., 0., 0., 1., 1., 1., 1.], 3, 4).unwrap();
+        let mut out = [f64::NAN; 20];
+        derivatives(&knots, 3, 0.5, 4, &mut out);
+        let expected = [
+            [0.125, 0.375, 0.375, 0.125],
+            [-0.75, -0.75, 0.75, 0.75],
+            [3.0, -3.0, -3.0, 3.0],
+            [-6.0, 18.0, -18.0, 6.0],
+            [0.0; 4],
+        ];
+        assert_eq!(out.as_slice(), expected.as_flattened());
+    }
+
+    #[test]
+    fn knots_at_both_ends_of_the_range_of_doubles_give_finite_values() {
+        for step in [5e-324, 1e-310, 1e99] {
+            let knots = Knots::new(&[-step, 0., 0., step, step, 2.0 * step], 2, 3).unwrap();
+            for u in [0.0, step * 0.5, step] {
+                let mut out = [0.0; 3];
+                values(&knots, knots.span(u), u, &mut out);
+                assert!((out.iter().sum::<f64>() - 1.0).abs() < 1e-15, "{step}: {out:?}");
+            }
+        }
+    }
+}

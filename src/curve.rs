@@ -18,6 +18,8 @@ use crate::basis;
 use crate::error::Error;
 use crate::knots::{Knots, MAX_DEGREE, MAX_MAGNITUDE, copied};
 
+pub(crate) mod insertion;
+
 /// Ends nearer than this, relative to the diagonal of the box, are the same point: a closed shape.
 pub const CLOSED_TOLERANCE: f64 = 1e-9;
 
@@ -112,7 +114,7 @@ impl Curve {
 
     /// The derivatives of order 0 to `count` at `u`, sided like [`Curve::evaluate`], into `out[0..=count]`.
     ///
-    /// `out[0]` has the same bits as `evaluate(u)`, whatever `count` is.
+    /// `out[0]` has the same bits as `evaluate(u)`, whatever `count` is; `count` is at most [`MAX_DEGREE`].
     pub fn derivatives(&self, u: f64, count: usize, out: &mut [[f64; 3]]) {
         debug_assert!(self.knots.contains(u), "u = {u} is outside the domain");
         let rows = count.min(self.degree()) + 1;
@@ -301,4 +303,65 @@ pub(crate) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 pub(crate) fn length_tolerance((low, high): ([f64; 3], [f64; 3]), relative: f64) -> f64 {
     let largest = low.iter().chain(&high).fold(0.0, |most: f64, x| most.max(x.abs()));
     relative * distance(low, high) + COORDINATE_ROUNDING * largest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(
+        knots: &[f64],
+        degree: usize,
+        poles: &[[f64; 3]],
+        weights: Option<&[f64]>,
+    ) -> String {
+        Curve::new(knots, degree, poles, weights).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_refusal_names_parameter_and_index() {
+        let (line, poles) = ([0., 0., 1., 1.], [[0.0; 3], [1.0, 2.0, 3.0]]);
+        let knots = |knots: [f64; 4]| refused(&knots, 1, &poles, None);
+        assert_eq!(knots([0., 0., f64::NAN, 1.]), "knots: knot 2 is not finite");
+        assert_eq!(knots([0., 0., 1., 2e100]), "knots: knot 3 is beyond 1e100");
+        assert_eq!(knots([0., 0., 1., 0.5]), "knots: knot 3 is less than knot 2");
+        assert_eq!(knots([0., 1., 1., 2.]), "knots: the domain is empty");
+        assert_eq!(refused(&line, 0, &poles, None), "degree: 0 given, 1 to 31 accepted");
+        assert_eq!(refused(&line, 32, &poles, None), "degree: 32 given, 1 to 31 accepted");
+        assert_eq!(refused(&line, 2, &poles, None), "pole_count: 2 given, at least 3 needed");
+        assert_eq!(refused(&line[1..], 1, &poles, None), "knots: 3 given, 4 expected");
+        let bad = [poles[0], [0.0, f64::INFINITY, 0.0]];
+        assert_eq!(refused(&line, 1, &bad, None), "poles: pole 1 is not finite");
+        let bad = [[0.0, -2e100, 0.0], poles[1]];
+        assert_eq!(refused(&line, 1, &bad, None), "poles: pole 0 is beyond 1e100");
+    }
+
+    #[test]
+    fn a_refused_weight_is_named() {
+        let weights =
+            |weights: &[f64]| refused(&[0., 0., 1., 1.], 1, &[[0.0; 3]; 2], Some(weights));
+        assert_eq!(weights(&[1.0]), "weights: 1 given, 2 expected");
+        assert_eq!(weights(&[1.0, f64::NAN]), "weights: weight 1 is not finite");
+        assert_eq!(weights(&[1.0, 0.0]), "weights: weight 1 is not positive");
+        assert_eq!(weights(&[-1.0, 0.0]), "weights: weight 0 is not positive");
+        assert_eq!(weights(&[1.0, 1e101]), "weights: weight 1 is beyond 1e100");
+        assert_eq!(weights(&[1.0, 1e-101]), "weights: weight 1 is below 1e-100");
+    }
+
+    #[test]
+    fn equal_weights_are_kept_but_make_no_rational_curve() {
+        let curve =
+            Curve::new(&[0., 0., 1., 1.], 1, &[[0.0; 3], [1.0; 3]], Some(&[3.0; 2])).unwrap();
+        assert!(!curve.is_rational());
+        let finer = curve.insert_knot(0.3, 1).unwrap();
+        assert_eq!(finer.weights(), Some(&[3.0; 3][..]));
+    }
+
+    #[test]
+    fn binomials_follow_from_their_neighbours_and_are_symmetric() {
+        assert_eq!(binomial(31, 15), 300_540_195.0);
+        for n in 0..=MAX_DEGREE {
+            assert!((0..=n).all(|k| binomial(n, k) == binomial(n, n - k)));
+        }
+    }
 }

@@ -17,7 +17,11 @@ use crate::curve::{add_scaled, box_of, check_poles, check_weights, differ, large
 use crate::error::Error;
 use crate::knots::{Knots, MAX_DEGREE, copied};
 
+mod edges;
+mod insertion;
 mod partials;
+
+pub use edges::COLLAPSED_TOLERANCE;
 
 const ORDER: usize = MAX_DEGREE + 1;
 
@@ -173,5 +177,48 @@ fn check_pole_count(found: usize, count_u: usize, count_v: usize) -> Result<(), 
             Err(Error::InvalidArgument(format!("poles: {found} given, {expected} expected")))
         }
         None => Err(Error::InvalidArgument("pole_count_u: times pole_count_v overflows".into())),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LINE: [f64; 4] = [0., 0., 1., 1.];
+
+    fn refused(
+        v: &[f64],
+        poles: &[[f64; 3]],
+        counts: [usize; 2],
+        weights: Option<&[f64]>,
+    ) -> String {
+        let made = Surface::new(&LINE, v, 1, 1, poles, counts[0], counts[1], weights);
+        made.unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_refusal_names_direction_and_both_indices() {
+        let (v, mut poles) = ([0., 0., 1., 2., 2.], [[1.0; 3]; 6]);
+        assert_eq!(
+            refused(&[0., 0., 1., 0., 2.], &poles, [2, 3], None),
+            "knots_v: knot 3 is less than knot 2"
+        );
+        assert_eq!(refused(&v, &poles, [1, 3], None), "pole_count_u: 1 given, at least 2 needed");
+        assert_eq!(refused(&v, &poles, [3, 3], None), "knots_u: 4 given, 5 expected");
+        assert_eq!(refused(&v, &poles[..5], [2, 3], None), "poles: 5 given, 6 expected");
+        let weights = [1., 1., 1., 1., -1., 1.];
+        assert_eq!(
+            refused(&v, &poles, [2, 3], Some(&weights)),
+            "weights: weight (1, 1) is not positive"
+        );
+        poles[5][2] = f64::NAN;
+        assert_eq!(refused(&v, &poles, [2, 3], None), "poles: pole (1, 2) is not finite");
+    }
+
+    #[test]
+    fn counts_that_overflow_are_refused_before_any_work() {
+        let most = usize::MAX;
+        assert!(Surface::new(&LINE, &LINE, 1, 1, &[[0.0; 3]; 4], most, 2, None).is_err());
+        assert!(check_pole_count(4, most, 3).unwrap_err().to_string().contains("pole_count_u"));
     }
 }

@@ -33,7 +33,7 @@ impl Surface {
     /// The partial derivatives at (u, v) to total order `count`, sided like [`Surface::evaluate`], into
     /// `out`: S; Su, Sv; Suu, Suv, Svv; ..., `(count + 1) (count + 2) / 2` vectors.
     ///
-    /// `out[0]` has the same bits as `evaluate(u, v)`, whatever `count` is.
+    /// `out[0]` has the same bits as `evaluate(u, v)`, whatever `count` is; `count` is at most 31.
     pub fn partials(&self, u: f64, v: f64, count: usize, out: &mut [[f64; 3]]) {
         debug_assert!(self.knots_u.contains(u), "u = {u} is outside the domain");
         debug_assert!(self.knots_v.contains(v), "v = {v} is outside the domain");
