@@ -4,6 +4,7 @@
 //! Reading order = module order: a file uses only the files listed before it.
 
 pub mod error;
+
 pub mod knots;
 
 pub mod basis;
@@ -11,3 +12,17 @@ pub mod basis;
 pub mod curve;
 
 pub mod surface;
+
+pub mod bezier;
+
+pub mod bounds;
+
+pub mod jet;
+
+pub mod tree;
+
+pub mod index;
+
+pub mod refine;
+
+pub mod closest;
