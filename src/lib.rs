@@ -26,3 +26,5 @@ pub mod index;
 pub mod refine;
 
 pub mod closest;
+
+pub mod batch;
