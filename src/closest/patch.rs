@@ -266,6 +266,7 @@ impl Walk<'_, '_, '_> {
         if self.turning(area, at, weight) || self.convex(area, at, place, weight) {
             return Verdict::Closed;
         }
+        self.probe(area, place);
         let size = |(low, high): (f64, f64), n: usize| low.abs().max(high.abs()) * n as f64;
         if size(slopes.s, self.degree.s) >= size(slopes.t, self.degree.t) {
             Verdict::HalveS
