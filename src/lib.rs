@@ -5,3 +5,9 @@
 
 pub mod error;
 pub mod knots;
+pub mod curve;
+pub mod surface;
+pub mod index;
+pub mod refine;
+pub mod closest;
+pub mod batch;
