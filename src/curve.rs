@@ -34,7 +34,7 @@ impl Curve {
         self.weights.as_deref()
     }
     pub fn degree(&self) -> usize {
-        self.poles.len().min(3)
+        self.knots.degree()
     }
     pub fn domain(&self) -> (f64, f64) {
         self.knots.domain()
