@@ -88,11 +88,16 @@ impl IndexedCurve {
         &self,
         query: [f64; 3],
         hint: Option<f64>,
-        _: &QueryOptions,
+        options: &QueryOptions,
         _: &mut Workspace,
         trace: Option<Trace<'_>>,
     ) -> FootPoint {
-        answer(query, hint.unwrap_or(self.curve().domain().0), 0.0, trace)
+        answer(
+            query,
+            hint.or(options.domain.map(|d| d[0])).unwrap_or(self.curve().domain().0),
+            0.0,
+            trace,
+        )
     }
     pub fn invert(
         &self,
