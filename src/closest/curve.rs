@@ -52,9 +52,8 @@ impl IndexedCurve {
         trace: Option<Trace>,
     ) -> FootPoint {
         let mut foot = self.closest(query, hint, options, workspace, trace);
-        if foot.distance.is_finite() {
-            let frame = crate::index::Frame::new(self.curve().poles(), self.curve().bounding_box());
-            mark_inversion(&mut foot, options.tolerance(&frame));
+        if let (Ok(index), true) = (self.index(&mut || false), foot.distance.is_finite()) {
+            mark_inversion(&mut foot, options.tolerance(&index.frame));
         }
         foot
     }
@@ -137,7 +136,7 @@ impl IndexedCurve {
         let mut u = u;
         let mut point = self.curve().evaluate(u);
         let mut flags = 0;
-        let closed = self.curve().is_closed();
+        let closed = index.closed;
         if closed && u == last {
             // The canonical parameter of a seam is the start, when it is as near.
             let start = self.curve().evaluate(first);
@@ -149,7 +148,7 @@ impl IndexedCurve {
         if u == first || u == last {
             flags |= flag::EDGE | if closed { flag::SEAM } else { 0 };
         }
-        if self.is_crease(u, closed) {
+        if self.is_crease(index, u) {
             flags |= flag::CREASE;
         }
         FootPoint {
@@ -164,14 +163,13 @@ impl IndexedCurve {
     }
 
     /// Whether the tangent breaks at `u`: a knot of multiplicity >= degree where the one-sided tangents differ.
-    fn is_crease(&self, u: f64, closed: bool) -> bool {
+    fn is_crease(&self, index: &CurveIndex, u: f64) -> bool {
         let curve = self.curve();
         let (first, last) = curve.domain();
         let at_seam = u == first || u == last;
-        if at_seam && !closed || !at_seam && curve.knots().multiplicity(u) < curve.degree() {
+        if at_seam && !index.closed || !at_seam && curve.knots().multiplicity(u) < curve.degree() {
             return false;
         }
-        let Ok(index) = self.index(&mut || false) else { return false };
         let after = index.segments.iter().position(|s| s.u[0] == u);
         let (before, after) = match after {
             Some(k) if k > 0 => (k - 1, k),

@@ -202,7 +202,11 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
             }
             return Verdict::Closed;
         }
-        if self.convex(interval, at, place) { Verdict::Closed } else { Verdict::Halve }
+        if self.convex(interval, at, place) {
+            return Verdict::Closed;
+        }
+        self.probe(interval, place);
+        Verdict::Halve
     }
 
     fn is_border(&self, interval: &Interval, end: usize) -> bool {
@@ -254,9 +258,8 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
     /// best foot when it is inside.
     fn iterate(&mut self, interval: &Interval, place: usize) -> (f64, Jet1) {
         let (low, high) = (interval.low, interval.high);
-        let share = place as f64 / (self.count - 1) as f64;
         let curve = (self.line.segment, self.line.query);
-        let start = low + share * (high - low);
+        let start = self.abscissa(interval, place);
         let (s, jet, taken) = match &mut self.proof.trace {
             None => foot_on_curve(&curve, start, [low, high], self.line.method, None),
             Some(watch) => {
@@ -268,6 +271,22 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         self.proof.evaluations += taken;
         self.proof.offer((self.line.site)(s), norm(jet.d));
         (s, jet)
+    }
+
+    /// The Greville abscissa of coefficient `place`.
+    fn abscissa(&self, interval: &Interval, place: usize) -> f64 {
+        let share = place as f64 / (self.count - 1) as f64;
+        interval.low + share * (interval.high - interval.low)
+    }
+
+    /// Looks at one point of an interval that is not closed yet, and iterates from it when it is nearer than the
+    /// best: a target far too high makes `h` concave (by its term in C), and no test could ever close.
+    fn probe(&mut self, interval: &Interval, place: usize) {
+        let jet = self.line.segment.jet(self.abscissa(interval, place), self.line.query);
+        self.proof.evaluations += 1;
+        if norm(jet.d) < self.proof.target {
+            self.iterate(interval, place);
+        }
     }
 
     /// Whether convexity and the first-order conditions at the iteration's result prove the target.

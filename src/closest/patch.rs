@@ -247,7 +247,8 @@ impl Walk<'_, '_, '_> {
             (least, place) = self.least_ratio(at);
         }
         if self.proof.best == f64::INFINITY {
-            self.iterate(area, place);
+            let start = self.start(area, place);
+            self.iterate(area, start);
             area.error += 8.0 * HALF_ULP * self.proof.target_squared;
             if self.proof.is_trivial() {
                 return Verdict::Closed;
@@ -265,6 +266,7 @@ impl Walk<'_, '_, '_> {
         if self.turning(area, at, weight) || self.convex(area, at, place, weight) {
             return Verdict::Closed;
         }
+        self.probe(area, place);
         let size = |(low, high): (f64, f64), n: usize| low.abs().max(high.abs()) * n as f64;
         if size(slopes.s, self.degree.s) >= size(slopes.t, self.degree.t) {
             Verdict::HalveS
@@ -389,20 +391,38 @@ impl Walk<'_, '_, '_> {
         size - 1
     }
 
-    fn iterate(&mut self, area: &Area, place: usize) -> ([f64; 2], Jet2) {
+    /// The Greville abscissae of coefficient `place`.
+    fn abscissa(&self, area: &Area, place: usize) -> [f64; 2] {
         let width = self.degree.t + 1;
-        let share = [
-            (place / width) as f64 / self.degree.s as f64,
-            (place % width) as f64 / self.degree.t as f64,
-        ];
-        let range = [area.s[0], area.s[1], area.t[0], area.t[1]];
+        let s = (place / width) as f64 / self.degree.s as f64;
+        let t = (place % width) as f64 / self.degree.t as f64;
+        [area.s[0] + s * (area.s[1] - area.s[0]), area.t[0] + t * (area.t[1] - area.t[0])]
+    }
+
+    /// The best foot when it is inside, the Greville abscissae of coefficient `place` otherwise.
+    fn start(&self, area: &Area, place: usize) -> [f64; 2] {
         let inside = |at: [f64; 2]| {
-            at[0] >= range[0] && at[0] <= range[1] && at[1] >= range[2] && at[1] <= range[3]
+            (area.s[0]..=area.s[1]).contains(&at[0]) && (area.t[0]..=area.t[1]).contains(&at[1])
         };
-        let start = match self.proof.site {
+        match self.proof.site {
             Some(site) if site.piece == self.sheet.piece && inside(site.at) => site.at,
-            _ => [0, 1].map(|k| range[2 * k] + share[k] * (range[2 * k + 1] - range[2 * k])),
-        };
+            _ => self.abscissa(area, place),
+        }
+    }
+
+    /// Looks at one point of an area that is not closed yet, and iterates from it when it is nearer than the
+    /// target: a target far too high makes `h` concave (by its term in C), and no test could ever close.
+    fn probe(&mut self, area: &Area, place: usize) {
+        let at = self.abscissa(area, place);
+        let jet = self.sheet.net.jet(at[0], at[1], self.sheet.query);
+        self.proof.evaluations += 1;
+        if norm(jet.d) < self.proof.target {
+            self.iterate(area, at);
+        }
+    }
+
+    fn iterate(&mut self, area: &Area, start: [f64; 2]) -> ([f64; 2], Jet2) {
+        let range = [area.s[0], area.s[1], area.t[0], area.t[1]];
         let surface = (self.sheet.net, self.sheet.query);
         let piece = self.sheet.piece;
         let (at, jet, taken) = match &mut self.proof.trace {
@@ -423,7 +443,8 @@ impl Walk<'_, '_, '_> {
         if self.curvature(area, at, weight).is_none() {
             return false;
         }
-        let (found, jet) = self.iterate(area, place);
+        let start = self.start(area, place);
+        let (found, jet) = self.iterate(area, start);
         match self.curvature(area, at, weight) {
             Some(m) => self.first_order(area, found, &jet, m),
             None => false,

@@ -135,7 +135,7 @@ impl IndexedSurface {
         let surface = self.surface();
         let ([u0, u1, v0, v1], mut at) = (surface.domain(), at);
         let mut point = surface.evaluate(at[0], at[1]);
-        let closed = [surface.is_closed_u(), surface.is_closed_v()];
+        let closed = index.closed;
         let (first, last) = ([u0, v0], [u1, v1]);
         for k in 0..2 {
             if closed[k] && at[k] == last[k] {
@@ -156,7 +156,7 @@ impl IndexedSurface {
             point,
             distance: distance(query, point),
             lower_bound: 0.0,
-            flags: place_flags(on, closed, surface.collapsed_edges())
+            flags: place_flags(on, closed, index.collapsed)
                 | self.crease_flag(index, at, closed),
             iterations: 0,
         }

@@ -11,6 +11,10 @@ use crate::knots::Knots;
 use crate::surface::Surface;
 use crate::tree::Tree;
 
+/// A collapsed edge whose poles spread by more than this share of the box diagonal is searched as the tiny edge
+/// that it is; below it, the poles are made to coincide, at the price of that much in every bound.
+pub const MOST_SPREAD: f64 = 1e-12;
+
 /// The four sides of a patch, as indices of its `border` and `collapsed` arrays.
 pub mod side {
     /// s = 0.
@@ -57,6 +61,10 @@ pub struct SurfaceIndex {
     pub rational: bool,
     /// Number of patches in v.
     pub columns: usize,
+    /// Whether the surface is closed in u, in v.
+    pub closed: [bool; 2],
+    /// Whether the edges u0, u1, v0, v1 are collapsed.
+    pub collapsed: [bool; 4],
     nets: Vec<f64>,
     tensors: Vec<f64>,
 }
@@ -105,11 +113,14 @@ impl SurfaceIndex {
             degree,
             rational,
             columns,
+            closed: [surface.is_closed_u(), surface.is_closed_v()],
+            collapsed: surface.collapsed_edges(),
             nets: reserved(count * width)?,
             tensors: reserved(if keep_tensors { count * tensor_width } else { 0 })?,
         };
         let mut boxes = reserved(count)?;
-        let edges = surface.collapsed_edges();
+        let exact = |k: usize| surface.collapsed_spread(k) <= MOST_SPREAD * index.frame.diagonal;
+        let edges = [0, 1, 2, 3].map(|k| index.collapsed[k] && exact(k));
         for k in 0..count {
             if k % 256 == 255 && poll() {
                 return Err(Error::Cancelled);

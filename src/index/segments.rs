@@ -32,6 +32,8 @@ pub struct CurveIndex {
     pub segments: Vec<Segment>,
     /// Boxes of the segments.
     pub tree: Tree,
+    /// Whether the curve is closed.
+    pub closed: bool,
     degree: usize,
     rational: bool,
     nets: Vec<f64>,
@@ -55,6 +57,7 @@ impl CurveIndex {
             frame: Frame::new(curve.poles(), curve.bounding_box()),
             segments: reserved(spans.len())?,
             tree: Tree::new(&[], 0, 0),
+            closed: curve.is_closed(),
             degree: p,
             rational,
             nets: reserved(spans.len() * width)?,
