@@ -302,8 +302,8 @@ typedef struct fpt_curve_data {
     size_t pole_count;
     /**
      * pole_count + degree + 1 numbers, not decreasing, repeats written out, no interior knot more than
-     * degree times. Periodic curves come unrolled: the domain is knots[degree] to
-     * knots[pole_count].
+     * degree times. Periodic curves come unrolled: the domain is `knots[degree]` to
+     * `knots[pole_count]`.
      */
     const double *knots;
     /**
@@ -342,8 +342,8 @@ typedef struct fpt_surface_data {
     size_t pole_count_v;
     /**
      * pole_count_u + degree_u + 1 numbers, not decreasing, repeats written out, no interior knot more
-     * than degree_u times. Periodic surfaces come unrolled: the domain is knots_u[degree_u] to
-     * knots_u[pole_count_u].
+     * than degree_u times. Periodic surfaces come unrolled: the domain is `knots_u[degree_u]` to
+     * `knots_u[pole_count_u]`.
      */
     const double *knots_u;
     /**

@@ -29,8 +29,8 @@ pub struct fpt_curve_data {
     /// At least degree + 1.
     pub pole_count: usize,
     /// pole_count + degree + 1 numbers, not decreasing, repeats written out, no interior knot more than
-    /// degree times. Periodic curves come unrolled: the domain is knots[degree] to
-    /// knots[pole_count].
+    /// degree times. Periodic curves come unrolled: the domain is `knots[degree]` to
+    /// `knots[pole_count]`.
     pub knots: *const f64,
     /// x,y,z of pole i at 3*i; plane curves have z = 0. Not multiplied by the weights.
     pub poles: *const f64,

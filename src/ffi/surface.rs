@@ -33,8 +33,8 @@ pub struct fpt_surface_data {
     /// At least degree_v + 1.
     pub pole_count_v: usize,
     /// pole_count_u + degree_u + 1 numbers, not decreasing, repeats written out, no interior knot more
-    /// than degree_u times. Periodic surfaces come unrolled: the domain is knots_u[degree_u] to
-    /// knots_u[pole_count_u].
+    /// than degree_u times. Periodic surfaces come unrolled: the domain is `knots_u[degree_u]` to
+    /// `knots_u[pole_count_u]`.
     pub knots_u: *const f64,
     /// The same in v.
     pub knots_v: *const f64,
