@@ -28,3 +28,5 @@ pub mod refine;
 pub mod closest;
 
 pub mod batch;
+
+mod ffi;
