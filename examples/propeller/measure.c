@@ -20,9 +20,10 @@ enum { CHUNK = 1 << 16 }; /* points in one go: 5 MB of records, enough to keep a
 /* What is known about one point of the chunk. */
 typedef struct state {
     double box_distance[MEMBER_COUNT];
-    double bound;                 /* least lower bound of the members asked */
-    unsigned asked, unproven;     /* bit sets over the members */
-    int first;                    /* the member to ask first */
+    double bound;      /* least lower bound of the members asked */
+    double weak_bound; /* the same among the answers that were not proven */
+    unsigned asked;    /* bit set of the members asked */
+    int first;         /* the member to ask first */
 } state;
 
 typedef struct job {
@@ -58,8 +59,8 @@ static double box_distance(const double box[6], const double *x, double *to_cent
 /* The nearest box is asked first; among boxes that hold the point, the one whose centre is nearest. */
 static void look_at_boxes(const part *p, const double *x, state *s) {
     double best = HUGE_VAL, best_centre = HUGE_VAL;
-    s->bound = HUGE_VAL;
-    s->asked = s->unproven = 0;
+    s->bound = s->weak_bound = HUGE_VAL;
+    s->asked = 0;
     for (int i = 0; i < MEMBER_COUNT; i++) {
         double centre, distance = box_distance(p->members[i].box, x, &centre);
         s->box_distance[i] = distance;
@@ -75,8 +76,8 @@ static void take_answer(job *j, size_t point, int index, const fpt_foot_point *a
         j->member[point] = (unsigned char)index;
     }
     s->asked |= 1u << index;
-    if (answer->flags & FPT_FOOT_NOT_PROVEN) s->unproven |= 1u << index;
     s->bound = fmin(s->bound, answer->lower_bound);
+    if (answer->flags & FPT_FOOT_NOT_PROVEN) s->weak_bound = fmin(s->weak_bound, answer->lower_bound);
 }
 
 static void report_progress(void *user, size_t done, size_t total) {
@@ -134,11 +135,11 @@ static fpt_status ask_round(job *j, int asks_first) {
 /* Makes the certificate of each foot point speak of the whole part. */
 static void conclude(job *j) {
     for (size_t i = 0; i < j->count; i++) {
-        state *s = &j->states[i];
+        const state *s = &j->states[i];
         fpt_foot_point *foot = &j->feet[i];
         foot->lower_bound = fmin(s->bound, foot->distance);
         foot->flags &= ~(uint32_t)FPT_FOOT_NOT_PROVEN;
-        if (s->unproven != 0 && s->bound < foot->distance) foot->flags |= FPT_FOOT_NOT_PROVEN;
+        if (s->weak_bound < foot->distance) foot->flags |= FPT_FOOT_NOT_PROVEN;
     }
 }
 

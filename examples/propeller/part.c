@@ -26,9 +26,11 @@ static fpt_status find_root(const member *blade, double out[ROOT_CORNERS][2]) {
     return FPT_OK;
 }
 
-static fpt_status finish_member(member *m, const char *name, double outward) {
+static fpt_status finish_member(member *m, const char *name, double outward, int pieces, int is_smooth) {
     m->name = name;
     m->outward = outward;
+    m->pieces = pieces;
+    m->is_smooth = is_smooth;
     fpt_status status = fpt_surface_domain(m->surface, m->domain);
     if (status == FPT_OK) status = fpt_surface_box(m->surface, m->box);
     if (status == FPT_OK) status = fpt_surface_prepare(m->surface); /* optional: the first query would do it */
@@ -42,15 +44,15 @@ fpt_status part_new(part *out) {
     fpt_status status = FPT_OK;
     for (int i = 0; i < BLADE_COUNT && status == FPT_OK; i++) {
         status = blade_new(2 * acos(-1.0) * i / BLADE_COUNT, &m[i].surface);
-        if (status == FPT_OK) status = finish_member(&m[i], blade_names[i], 1);
+        if (status == FPT_OK) status = finish_member(&m[i], blade_names[i], 1, 1, 0);
         if (status == FPT_OK) status = find_root(&m[i], out->root[i]);
     }
     if (status == FPT_OK) status = barrel_new(&m[BARREL].surface);
-    if (status == FPT_OK) status = finish_member(&m[BARREL], "barrel", -1);
+    if (status == FPT_OK) status = finish_member(&m[BARREL], "barrel", -1, 3, 1);
     if (status == FPT_OK) status = nose_cap_new(&m[NOSE_CAP].surface);
-    if (status == FPT_OK) status = finish_member(&m[NOSE_CAP], "nose cap", -1);
+    if (status == FPT_OK) status = finish_member(&m[NOSE_CAP], "nose cap", -1, 1, 1);
     if (status == FPT_OK) status = bore_new(&m[BORE].surface);
-    if (status == FPT_OK) status = finish_member(&m[BORE], "bore", -1);
+    if (status == FPT_OK) status = finish_member(&m[BORE], "bore", -1, 2, 1);
     return status;
 }
 

@@ -25,6 +25,8 @@ typedef struct member {
     double domain[4]; /* u0, u1, v0, v1 */
     double box[6];    /* x0, y0, z0, x1, y1, z1 */
     double outward;   /* +1 or -1: makes Su x Sv point out of the material */
+    int pieces;       /* smooth pieces along v, of equal length in v, with creases between */
+    int is_smooth;    /* across the seam */
 } member;
 
 typedef struct part {
