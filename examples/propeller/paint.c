@@ -101,7 +101,6 @@ static double ink(const view *v, int x, int y, const sample *s, vec3 normal) {
 
 typedef struct painter {
     const view *view, *light;
-    double limit;
     double *sky; /* per pixel */
     int columns, rows;
 } painter;
@@ -113,6 +112,7 @@ static void shade(const painter *q, int x, int y, const sample *s, double rgb[3]
     vec3 normal = facing_normal(s, to_eye), main_way = vec3_scale(-1, q->light->camera.forward);
     vec3 fill_way = vec3_unit(vec3_add(vec3_scale(0.9, c->right), vec3_sub(vec3_scale(0.2, c->up), c->forward)));
     double sky = q->sky[(size_t)(y / VIEW_SAMPLES) * (size_t)q->columns + (size_t)(x / VIEW_SAMPLES)];
+    if (sky < 0) sky = 1; /* only corners of this pixel are covered */
     double facing = vec3_dot(normal, main_way);
     double main_light = facing > 0 ? facing * light_share(q->light, point, normal) : 0;
     double fill = fmax(0, vec3_dot(normal, fill_way));
@@ -120,7 +120,7 @@ static void shade(const painter *q, int x, int y, const sample *s, double rgb[3]
     double shine = pow(fmax(0, vec3_dot(normal, vec3_unit(vec3_add(main_way, to_eye)))), 48);
     double highlight = main_light > 0 ? 0.16 * shine * fmin(1, 4 * main_light) : 0;
     double line = ink(q->view, x, y, s, normal);
-    map_colour(s->deviation / q->limit, rgb);
+    map_colour(s->deviation / VIEW_LIMIT, rgb);
     for (int k = 0; k < 3; k++) rgb[k] = line * (to_linear(rgb[k]) * diffuse + highlight);
 }
 
@@ -173,8 +173,8 @@ static void smooth_line(double *line, int count, int stride, double *spare) {
     for (int i = 0; i < count; i++) line[i * stride] = spare[i];
 }
 
-int view_paint(const view *v, const view *light, double limit, image *picture, int x, int y) {
-    painter q = {v, light, limit, NULL, v->width / VIEW_SAMPLES, v->height / VIEW_SAMPLES};
+int view_paint(const view *v, const view *light, image *picture, int x, int y) {
+    painter q = {v, light, NULL, v->width / VIEW_SAMPLES, v->height / VIEW_SAMPLES};
     double *spare = malloc((size_t)(q.columns + q.rows) * sizeof *spare);
     q.sky = malloc((size_t)q.columns * (size_t)q.rows * sizeof *q.sky);
     int ready = spare && q.sky;

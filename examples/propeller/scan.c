@@ -6,14 +6,16 @@
 
 enum { GRID = 320 }; /* cells of a member in u and in v */
 
+/* The last one has no height of its own: a place to look at the bend. */
 static const defect PLANTED[DEFECT_COUNT] = {
-    {.at = {0, 0.74, 0.62}, .height = 0.32, .radius = 7.0},
-    {.at = {1, 0.72, 0.50}, .height = -0.28, .radius = 8.5},
-    {.at = {3, 0.62, 0.66}, .height = -0.20, .radius = 6.0},
-    {.at = {3, 0.84, 0.42}, .height = 0.16, .radius = 5.0},
-    {.at = {0, 0.26, 0.58}, .height = -0.38, .radius = 7.5},
-    {.at = {1, 0.30, 0.66}, .height = 0.24, .radius = 6.0},
-    {.at = {NOSE_CAP, 3.30, 0.55}, .height = 0.14, .radius = 4.0},
+    {.name = "bump", .at = {0, 0.74, 0.62}, .height = 0.32, .radius = 7.0},
+    {.name = "dent", .at = {1, 0.72, 0.50}, .height = -0.28, .radius = 8.5},
+    {.name = "dent", .at = {3, 0.64, 0.66}, .height = -0.20, .radius = 6.0},
+    {.name = "bump", .at = {3, 0.80, 0.42}, .height = 0.16, .radius = 5.0},
+    {.name = "dent", .at = {0, 0.26, 0.58}, .height = -0.38, .radius = 7.5},
+    {.name = "bump", .at = {3, 0.24, 0.62}, .height = 0.24, .radius = 6.0},
+    {.name = "bump", .at = {NOSE_CAP, 3.30, 0.55}, .height = 0.14, .radius = 4.0},
+    {.name = "bent tip", .at = {SCAN_BENT_BLADE, 0.72, 0.90}, .height = 0, .radius = 8.0},
 };
 
 /* The member cut into cells of parameters, with the running sum of their areas. Cells that the scanner cannot see
@@ -119,6 +121,10 @@ static fpt_status plant_defects(const part *p, scan *s) {
         if (status == FPT_OK) status = part_normal(p, d->at, &d->normal);
         if (status != FPT_OK) return status;
         d->centre = vec3_of(centre);
+    }
+    for (int i = 0; i < DEFECT_COUNT; i++) {
+        defect *d = &s->defects[i];
+        d->expected = vec3_dot(d->normal, displacement(s, d->at.member, d->centre, d->normal));
     }
     return FPT_OK;
 }

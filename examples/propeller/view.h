@@ -8,6 +8,8 @@
 
 enum { VIEW_SAMPLES = 3 }; /* samples per pixel and direction */
 
+#define VIEW_LIMIT 0.3 /* mm: the deviation at the ends of the colours */
+
 typedef struct camera {
     vec3 eye, right, up, forward;
     double scale, centre_x, centre_y; /* samples per unit at depth 1 (perspective) or per mm (parallel) */
@@ -38,9 +40,9 @@ void view_free(view *v);
 
 /* Lights the view and puts it on the picture with its upper left corner at (x, y); `light` is a view of the same part
  * from the main light with a parallel camera. Returns 0, or -1 when memory is short. */
-int view_paint(const view *v, const view *light, double limit, image *picture, int x, int y);
+int view_paint(const view *v, const view *light, image *picture, int x, int y);
 
-/* The colour for a deviation of t times the limit, -1 <= t <= 1; red, green, blue in 0..1. */
+/* The colour of a deviation of t times VIEW_LIMIT, -1 <= t <= 1; red, green, blue in 0..1. */
 void map_colour(double t, double rgb[3]);
 
 #endif
