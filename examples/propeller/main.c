@@ -94,7 +94,7 @@ int main(int argc, char **argv) {
     fpt_status status = run(argv[1], count, &p, &s, &m, &as_planted);
     if (status != FPT_OK) fprintf(stderr, "\n%s: %s\n", fpt_status_name(status), fpt_last_error());
     else printf("\n  %.1f s in all; %s\n", clock_seconds() - start,
-                as_planted ? "every answer proven, every planted defect found" : "NOT as planted: look at the table");
+                as_planted ? "every planted defect was found" : "NOT as planted: look at the table");
     measurement_free(&m);
     scan_free(&s);
     part_free(&p);

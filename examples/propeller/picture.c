@@ -17,6 +17,7 @@ typedef struct panel {
     int x, y, width, height;
     vec3 eye, target, up;
     double field; /* mm across the panel at the target */
+    int is_framed;
 } panel;
 
 /* A label: a box at (x, y) in the picture and a line to a place of the part. */
@@ -31,9 +32,9 @@ typedef struct note {
 enum { PANEL_COUNT = 3, NOTE_COUNT = 11 };
 
 static const panel PANELS[PANEL_COUNT] = {
-    {"Pressure side", 0, 96, 900, 854, {110, -230, 420}, {0, -3, 4}, {0, 1, 0}, 258},
-    {"Suction side", 900, 96, 570, 440, {-150, -190, -430}, {0, 0, 0}, {0, 1, 0}, 325},
-    {"Tip of blade 1", 912, 548, 546, 380, {330, 60, 210}, {92, 44, 0}, {0.1, 1, 0}, 76},
+    {"Pressure side", 0, 96, 900, 854, {110, -230, 420}, {0, -3, 4}, {0, 1, 0}, 258, 0},
+    {"Suction side", 900, 96, 570, 440, {-150, -190, -430}, {0, 0, 0}, {0, 1, 0}, 325, 0},
+    {"Tip of blade 1", 912, 548, 546, 380, {150, -70, 330}, {80, 31, 0}, {0, 1, 0}, 112, 1},
 };
 
 static const note NOTES[NOTE_COUNT] = {
@@ -43,11 +44,11 @@ static const note NOTES[NOTE_COUNT] = {
     {0, 3, NULL, {0, 0, 0}, 560, 890},
     {0, 6, NULL, {0, 0, 0}, 150, 330},
     {0, 7, NULL, {0, 0, 0}, 90, 760},
-    {1, 4, NULL, {0, 0, 0}, 1400, 200},
-    {1, 5, NULL, {0, 0, 0}, 1000, 480},
-    {2, -1, "collapsed edge", {0, 0.5, 1.0}, 1390, 600},
-    {2, -1, "sharp edge, seam", {0, 0.0, 0.72}, 1030, 640},
-    {2, 0, NULL, {0, 0, 0}, 1300, 880},
+    {1, 4, NULL, {0, 0, 0}, 990, 200},
+    {1, 5, NULL, {0, 0, 0}, 1000, 490},
+    {2, -1, "tip: collapsed edge", {0, 0.5, 1.0}, 1350, 620},
+    {2, -1, "sharp edge and seam", {0, 0.0, 0.70}, 1030, 650},
+    {2, 0, NULL, {0, 0, 0}, 1400, 840},
 };
 
 static void paint_background(image *picture) {
@@ -65,9 +66,9 @@ static camera panel_camera(const panel *q) {
 static fpt_status paint_panel(const part *p, const deviation_map *map, const panel *q, image *picture) {
     view seen = {0}, light = {0};
     camera c = panel_camera(q);
-    vec3 main_light = vec3_add(vec3_scale(-0.55, c.right), vec3_sub(vec3_scale(0.80, c.up), vec3_scale(0.95, c.forward)));
-    camera lamp = camera_new(vec3_scale(400, vec3_unit(main_light)), vec3_new(0, 0, 0), c.right, 270, LIGHT_SIZE,
-                             LIGHT_SIZE, 1);
+    vec3 above = vec3_sub(vec3_scale(0.80, c.up), vec3_scale(0.95, c.forward));
+    vec3 lamp_eye = vec3_scale(400, vec3_unit(vec3_add(vec3_scale(-0.55, c.right), above)));
+    camera lamp = camera_new(lamp_eye, vec3_new(0, 0, 0), c.right, 270, LIGHT_SIZE, LIGHT_SIZE, 1);
     fpt_status status = view_new(p, map, c, q->width * VIEW_SAMPLES, q->height * VIEW_SAMPLES, &seen);
     if (status == FPT_OK) status = view_new(p, NULL, lamp, LIGHT_SIZE, LIGHT_SIZE, &light);
     if (status == FPT_OK && view_paint(&seen, &light, picture, q->x, q->y) != 0)
@@ -75,6 +76,14 @@ static fpt_status paint_panel(const part *p, const deviation_map *map, const pan
     view_free(&seen);
     view_free(&light);
     return status;
+}
+
+static void paint_frame(image *picture, const panel *q) {
+    double x0 = q->x + 0.5, y0 = q->y + 0.5, x1 = q->x + q->width - 0.5, y1 = q->y + q->height - 0.5;
+    image_line(picture, x0, y0, x1, y0, 1, PALE_INK);
+    image_line(picture, x1, y0, x1, y1, 1, PALE_INK);
+    image_line(picture, x1, y1, x0, y1, 1, PALE_INK);
+    image_line(picture, x0, y1, x0, y0, 1, PALE_INK);
 }
 
 static void paint_label(image *picture, double x, double y, const char *text) {
@@ -122,7 +131,8 @@ static void paint_colour_bar(image *picture) {
 static void paint_heading(const measurement *m, const report *r, image *picture) {
     char text[200], count[32];
     image_text(picture, 32, 52, 22, 2.8, -1, INK, "Propeller, diameter 240 mm: deviation from nominal");
-    snprintf(text, sizeof text, "%s scan points, %.3f %% projected with proof.  sigma %.4f mm,  %.2f %% within ~%.2f mm",
+    snprintf(text, sizeof text,
+             "%s scan points, %.3f %% projected with proof.  sigma %.4f mm,  %.2f %% within ~%.2f mm",
              report_count(m->count, count), 100.0 * (double)r->whole.proven / (double)m->count, r->whole.sigma,
              100.0 * (double)r->whole.within / (double)m->count, REPORT_TOLERANCE);
     image_text(picture, 32, 84, 12.5, 1.4, -1, PALE_INK, text);
@@ -131,13 +141,16 @@ static void paint_heading(const measurement *m, const report *r, image *picture)
 fpt_status picture_write(const part *p, const scan *s, const measurement *m, const report *r, const char *path) {
     image picture = {0};
     deviation_map *map = NULL;
-    fpt_status status = image_new(WIDTH, HEIGHT, &picture) == 0 && map_new(p, m, &map) == 0 ? FPT_OK : FPT_OUT_OF_MEMORY;
+    fpt_status status = FPT_OUT_OF_MEMORY;
+    if (image_new(WIDTH, HEIGHT, &picture) == 0 && map_new(p, m, &map) == 0) status = FPT_OK;
     if (status == FPT_OK) paint_background(&picture);
     for (int i = 0; i < PANEL_COUNT && status == FPT_OK; i++) {
         status = paint_panel(p, map, &PANELS[i], &picture);
+        if (PANELS[i].is_framed) paint_frame(&picture, &PANELS[i]);
         image_text(&picture, PANELS[i].x + 32, PANELS[i].y + 40, 14, 1.7, -1, INK, PANELS[i].title);
     }
-    for (int i = 0; i < NOTE_COUNT && status == FPT_OK; i++) status = paint_note(p, s, r, &NOTES[i], &picture);
+    for (int i = 0; i < NOTE_COUNT && status == FPT_OK; i++)
+        status = paint_note(p, s, r, &NOTES[i], &picture);
     if (status == FPT_OK) {
         paint_colour_bar(&picture);
         paint_heading(m, r, &picture);

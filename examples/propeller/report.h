@@ -6,6 +6,7 @@
 #include "scan.h"
 
 #define REPORT_TOLERANCE 0.10 /* mm, the part's profile tolerance to either side */
+#define REPORT_PROVEN_LEAST 0.999 /* share of the points; fewer would be a defect of the library */
 
 /* The histogram: BINS bins from -HISTOGRAM_LIMIT to HISTOGRAM_LIMIT. */
 #define HISTOGRAM_LIMIT 0.45 /* mm */
@@ -28,7 +29,7 @@ typedef struct report {
 int report_new(const scan *s, const measurement *m, report *out);
 void report_print(const report *r, const part *p, const scan *s, const measurement *m);
 
-/* Was everything proven, and were the defects found at their heights? */
+/* Were the planted defects found at their heights, and (nearly) all feet proven? */
 int report_is_as_planted(const report *r, const scan *s);
 
 /* A count with commas between the thousands, in `out`, which is returned. */
