@@ -48,23 +48,32 @@ static void draw_bar(void *user, size_t done, size_t total) {
     if (done == total) fputc('\n', stderr);
 }
 
-static fpt_status write_pictures(const part *p, const scan *s, const measurement *m, const report *r,
-                                 const char *directory) {
-    char path[1024];
-    snprintf(path, sizeof path, "%s/deviation_histogram.svg", directory);
-    if (histogram_write(r, path) != 0) {
-        fprintf(stderr, "cannot write %s\n", path);
-        return FPT_OK; /* the table is there; the picture may still work */
-    }
-    printf("\n  %s\n", path);
-    snprintf(path, sizeof path, "%s/deviation_map.png", directory);
-    fpt_status status = picture_write(p, s, m, r, path);
-    if (status == FPT_OK) printf("  %s\n", path);
-    return status;
+/* Says which file was written, or was not; returns 0 or -1. */
+static int tell(int result, const char *path) {
+    if (result == 0) printf("  %s\n", path);
+    else fprintf(stderr, "  cannot write %s\n", path);
+    return result;
 }
 
-/* *as_planted tells whether the result is what the planted defects ask for. */
-static fpt_status run(const char *directory, size_t count, part *p, scan *s, measurement *m, int *as_planted) {
+/* Sets *good when both files were written. */
+static fpt_status write_pictures(const part *p, const scan *s, const measurement *m, const report *r,
+                                 const char *directory, int *good) {
+    char path[1024];
+    image picture;
+    fpt_status status = picture_new(p, s, m, r, &picture);
+    if (status != FPT_OK) return status;
+    putchar('\n');
+    snprintf(path, sizeof path, "%s/deviation_map.png", directory);
+    int map = tell(image_write_png(&picture, path), path);
+    image_free(&picture);
+    snprintf(path, sizeof path, "%s/deviation_histogram.svg", directory);
+    int histogram = tell(histogram_write(r, path), path);
+    *good = map == 0 && histogram == 0;
+    return FPT_OK;
+}
+
+/* Sets *good when the result is what the planted defects ask for and the files were written. */
+static fpt_status run(const char *directory, size_t count, part *p, scan *s, measurement *m, int *good) {
     progress_bar bar = {0, -1};
     watcher w = {draw_bar, should_stop, &bar};
     report r;
@@ -75,8 +84,11 @@ static fpt_status run(const char *directory, size_t count, part *p, scan *s, mea
     if (status != FPT_OK) return status;
     if (report_new(s, m, &r) != 0) return FPT_OUT_OF_MEMORY;
     report_print(&r, p, s, m);
-    *as_planted = report_is_as_planted(&r, s);
-    return write_pictures(p, s, m, &r, directory);
+    status = write_pictures(p, s, m, &r, directory, good);
+    int as_planted = report_is_as_planted(&r, s);
+    printf("\n  %s\n", as_planted ? "Every planted defect was found." : "NOT as planted: look at the table.");
+    *good = *good && as_planted;
+    return status;
 }
 
 int main(int argc, char **argv) {
@@ -88,15 +100,14 @@ int main(int argc, char **argv) {
     part p = {0};
     scan s = {0};
     measurement m = {0};
-    int as_planted = 0;
+    int good = 0;
     double start = clock_seconds();
     signal(SIGINT, interrupt);
-    fpt_status status = run(argv[1], count, &p, &s, &m, &as_planted);
+    fpt_status status = run(argv[1], count, &p, &s, &m, &good);
     if (status != FPT_OK) fprintf(stderr, "\n%s: %s\n", fpt_status_name(status), fpt_last_error());
-    else printf("\n  %.1f s in all; %s\n", clock_seconds() - start,
-                as_planted ? "every planted defect was found" : "NOT as planted: look at the table");
+    else printf("  %.1f s in all.\n", clock_seconds() - start);
     measurement_free(&m);
     scan_free(&s);
     part_free(&p);
-    return status == FPT_OK && as_planted ? 0 : 1;
+    return status == FPT_OK && good ? 0 : 1;
 }

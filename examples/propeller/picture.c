@@ -43,10 +43,10 @@ static const note NOTES[NOTE_COUNT] = {
     {0, 2, NULL, {0, 0, 0}, 240, 890},
     {0, 3, NULL, {0, 0, 0}, 560, 890},
     {0, 6, NULL, {0, 0, 0}, 150, 330},
-    {0, 7, NULL, {0, 0, 0}, 90, 760},
+    {0, 7, NULL, {0, 0, 0}, 64, 836},
     {1, 4, NULL, {0, 0, 0}, 990, 200},
     {1, 5, NULL, {0, 0, 0}, 1000, 490},
-    {2, -1, "tip: collapsed edge", {0, 0.5, 1.0}, 1350, 620},
+    {2, -1, "collapsed tip", {0, 0.5, 1.0}, 1386, 628},
     {2, -1, "sharp edge and seam", {0, 0.0, 0.70}, 1030, 650},
     {2, 0, NULL, {0, 0, 0}, 1400, 840},
 };
@@ -63,6 +63,14 @@ static camera panel_camera(const panel *q) {
     return camera_new(q->eye, q->target, q->up, q->field, q->width * VIEW_SAMPLES, q->height * VIEW_SAMPLES, 0);
 }
 
+static void paint_frame(image *picture, const panel *q) {
+    double x0 = q->x + 0.5, y0 = q->y + 0.5, x1 = q->x + q->width - 0.5, y1 = q->y + q->height - 0.5;
+    image_line(picture, x0, y0, x1, y0, 1, PALE_INK);
+    image_line(picture, x1, y0, x1, y1, 1, PALE_INK);
+    image_line(picture, x1, y1, x0, y1, 1, PALE_INK);
+    image_line(picture, x0, y1, x0, y0, 1, PALE_INK);
+}
+
 static fpt_status paint_panel(const part *p, const deviation_map *map, const panel *q, image *picture) {
     view seen = {0}, light = {0};
     camera c = panel_camera(q);
@@ -75,15 +83,9 @@ static fpt_status paint_panel(const part *p, const deviation_map *map, const pan
         status = FPT_OUT_OF_MEMORY;
     view_free(&seen);
     view_free(&light);
+    if (q->is_framed) paint_frame(picture, q);
+    image_text(picture, q->x + 32, q->y + 40, 14, 1.7, -1, INK, q->title);
     return status;
-}
-
-static void paint_frame(image *picture, const panel *q) {
-    double x0 = q->x + 0.5, y0 = q->y + 0.5, x1 = q->x + q->width - 0.5, y1 = q->y + q->height - 0.5;
-    image_line(picture, x0, y0, x1, y0, 1, PALE_INK);
-    image_line(picture, x1, y0, x1, y1, 1, PALE_INK);
-    image_line(picture, x1, y1, x0, y1, 1, PALE_INK);
-    image_line(picture, x0, y1, x0, y0, 1, PALE_INK);
 }
 
 static void paint_label(image *picture, double x, double y, const char *text) {
@@ -138,25 +140,22 @@ static void paint_heading(const measurement *m, const report *r, image *picture)
     image_text(picture, 32, 84, 12.5, 1.4, -1, PALE_INK, text);
 }
 
-fpt_status picture_write(const part *p, const scan *s, const measurement *m, const report *r, const char *path) {
+fpt_status picture_new(const part *p, const scan *s, const measurement *m, const report *r, image *out) {
     image picture = {0};
     deviation_map *map = NULL;
     fpt_status status = FPT_OUT_OF_MEMORY;
     if (image_new(WIDTH, HEIGHT, &picture) == 0 && map_new(p, m, &map) == 0) status = FPT_OK;
     if (status == FPT_OK) paint_background(&picture);
-    for (int i = 0; i < PANEL_COUNT && status == FPT_OK; i++) {
-        status = paint_panel(p, map, &PANELS[i], &picture);
-        if (PANELS[i].is_framed) paint_frame(&picture, &PANELS[i]);
-        image_text(&picture, PANELS[i].x + 32, PANELS[i].y + 40, 14, 1.7, -1, INK, PANELS[i].title);
-    }
+    for (int i = 0; i < PANEL_COUNT && status == FPT_OK; i++) status = paint_panel(p, map, &PANELS[i], &picture);
     for (int i = 0; i < NOTE_COUNT && status == FPT_OK; i++)
         status = paint_note(p, s, r, &NOTES[i], &picture);
     if (status == FPT_OK) {
         paint_colour_bar(&picture);
         paint_heading(m, r, &picture);
-        if (image_write_png(&picture, path) != 0) status = FPT_OUT_OF_MEMORY;
+        *out = picture;
+    } else {
+        image_free(&picture);
     }
     map_free(map);
-    image_free(&picture);
     return status;
 }

@@ -2,13 +2,12 @@
 #ifndef PROPELLER_PICTURE_H
 #define PROPELLER_PICTURE_H
 
+#include "image.h"
 #include "measure.h"
 #include "report.h"
 #include "scan.h"
 
-
-
-/* Writes the PNG. Returns FPT_OK; FPT_OUT_OF_MEMORY also when the file could not be written. */
-fpt_status picture_write(const part *p, const scan *s, const measurement *m, const report *r, const char *path);
+/* Paints a new picture, for image_write_png() and image_free(). On failure there is nothing to free. */
+fpt_status picture_new(const part *p, const scan *s, const measurement *m, const report *r, image *out);
 
 #endif

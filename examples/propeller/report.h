@@ -9,8 +9,8 @@
 #define REPORT_PROVEN_LEAST 0.999 /* share of the points; fewer would be a defect of the library */
 
 /* The histogram: BINS bins from -HISTOGRAM_LIMIT to HISTOGRAM_LIMIT. */
-#define HISTOGRAM_LIMIT 0.45 /* mm */
-enum { BINS = 150, PERCENTILE_COUNT = 7 };
+#define HISTOGRAM_LIMIT 0.42 /* mm */
+enum { BINS = 140, PERCENTILE_COUNT = 7 };
 
 typedef struct summary {
     size_t count, proven, within; /* proven feet; deviations within the tolerance */
