@@ -8,9 +8,12 @@
 int main(void) {
     /* A bicubic Bezier patch: a square of 30 mm with a hill in its middle. */
     const double knots[8] = {0, 0, 0, 0, 1, 1, 1, 1};
-    const double poles[16 * 3] = {0,  0, 0, 0,  10, 0,  0,  20, 0,  0,  30, 0, 10, 0, 0, 10, 10, 12,
-                                  10, 20, 12, 10, 30, 0, 20, 0,  0,  20, 10, 12, 20, 20, 12, 20, 30, 0,
-                                  30, 0, 0, 30, 10, 0,  30, 20, 0,  30, 30, 0};
+    const double poles[16 * 3] = {
+        0,  0, 0,   0,  10, 0,    0,  20, 0,    0,  30, 0,
+        10, 0, 0,   10, 10, 12,   10, 20, 12,   10, 30, 0,
+        20, 0, 0,   20, 10, 12,   20, 20, 12,   20, 30, 0,
+        30, 0, 0,   30, 10, 0,    30, 20, 0,    30, 30, 0,
+    };
     const fpt_surface_data data = {.struct_size = sizeof data,
                                    .degree_u = 3, .degree_v = 3, .pole_count_u = 4, .pole_count_v = 4,
                                    .knots_u = knots, .knots_v = knots, .poles = poles};
