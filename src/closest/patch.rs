@@ -5,8 +5,8 @@
 //! and off that side the sign of the derivative of the distance itself is used (see [`Walk::turning`]).
 
 use super::line::{
-    Given, Line, LineMemory, free_slope, plane_separates, search_line, slope_error, square,
-    subtract_query, value_at,
+    Given, Line, LineMemory, foot_plane_separates, free_slope, plane_separates, search_line,
+    slope_error, square, subtract_query, value_at,
 };
 use super::proof::{Proof, Site, squared_error};
 use crate::bezier::{Bidegree, convolve, cut, halve_s, halve_t, scale_down_2d, scale_up_2d};
@@ -122,6 +122,20 @@ impl Walk<'_, '_, '_> {
         let mut first = Area { s: [s0, s1], t: [t0, t1], ..Area::default() };
         self.proof.spread = self.proof.spread.max(self.sheet.patch.spread);
         self.look_at_collapsed_sides();
+        let net = &self.sheet.net;
+        let (query, position) = (self.sheet.query, self.sheet.position);
+        if self.proof.best.is_finite()
+            && foot_plane_separates(
+                net.poles,
+                net.degree.count(),
+                net.rational,
+                query,
+                self.proof,
+                position,
+            )
+        {
+            return true;
+        }
         let whole = self.sheet.range == [0.0, 1.0, 0.0, 1.0];
         match self.sheet.tensors {
             Some(tensors) if whole => self.multiply(tensors, &mut first),
@@ -170,7 +184,7 @@ impl Walk<'_, '_, '_> {
     fn look_at(&mut self, at: [f64; 2]) -> Jet2 {
         let jet = self.sheet.net.jet(at[0], at[1], self.sheet.query);
         self.proof.evaluations += 1;
-        self.proof.offer(Site { piece: self.sheet.piece, at }, norm(jet.d));
+        self.proof.offer(Site { piece: self.sheet.piece, at }, jet.d);
         jet
     }
 
@@ -441,7 +455,7 @@ impl Walk<'_, '_, '_> {
             }
         };
         self.proof.evaluations += taken;
-        self.proof.offer(Site { piece: self.sheet.piece, at }, norm(jet.d));
+        self.proof.offer(Site { piece: self.sheet.piece, at }, jet.d);
         (at, jet)
     }
 
@@ -609,8 +623,8 @@ impl Walk<'_, '_, '_> {
             cut_area(component, degree, area);
         }
         let radius = subtract_query(net, count, self.sheet.query);
-        if self.proof.target.is_finite()
-            && plane_separates(net, count, self.proof.target, self.sheet.position)
+        if self.proof.best.is_finite()
+            && plane_separates(net, count, self.proof, self.sheet.position)
         {
             return true;
         }
