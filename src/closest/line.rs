@@ -351,7 +351,6 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         }
         let slot = &mut self.memory.coefficients[at * self.slot..(at + 1) * self.slot];
         square(net, Bidegree { s: 0, t: p }, slot);
-        let steps = product_steps(3 * size);
         let mu = if self.proof.best.is_finite() { self.proof.target_squared } else { 0.0 };
         let error = squared_error(self.line.position, radius, product_steps(3 * size));
         *interval = Interval { error: error + 8.0 * HALF_ULP * mu, radius, age: 0, ..*interval };
