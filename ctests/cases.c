@@ -134,7 +134,7 @@ static int parse_row(char *line, struct row *row) {
         if (numbers[field]) {
             *numbers[field] = *line ? strtod(line, NULL) : NAN;
         } else {
-            snprintf(row->class_name, NAME_MAX_LENGTH, "%s", line);
+            snprintf(row->class_name, NAME_MAX_LENGTH, "%.31s", line);
         }
         if (last) return field == 6;
         line = end + 1;
