@@ -58,32 +58,56 @@ static void counts_that_overflow_are_refused(void) {
     fill_pattern(numbers, sizeof numbers);
     for (size_t i = 0; i < COUNT_OF(counts); i++) {
         for (int k = 0; k < 2; k++) {
-            CHECK_ERROR(curve_queries[k](curve, two_points, counts[i], NULL, out), FPT_INVALID_ARGUMENT, "count");
-            CHECK_ERROR(surface_queries[k](surface, two_points, counts[i], NULL, out), FPT_INVALID_ARGUMENT, "count");
+            CHECK_ERROR(curve_queries[k](curve, two_points, counts[i], NULL, out), FPT_INVALID_ARGUMENT, "overflow");
+            CHECK_ERROR(surface_queries[k](surface, two_points, counts[i], NULL, out), FPT_INVALID_ARGUMENT, "overflow");
         }
-        CHECK_ERROR(fpt_curve_evaluate_many(curve, two_points, counts[i], 1, numbers), FPT_INVALID_ARGUMENT, "count");
-        CHECK_ERROR(fpt_surface_evaluate_many(surface, two_points, counts[i], 1, numbers), FPT_INVALID_ARGUMENT, "count");
+        CHECK_ERROR(fpt_curve_evaluate_many(curve, two_points, counts[i], 1, numbers), FPT_INVALID_ARGUMENT, "overflow");
+        CHECK_ERROR(fpt_surface_evaluate_many(surface, two_points, counts[i], 1, numbers), FPT_INVALID_ARGUMENT, "overflow");
     }
     CHECK(is_pattern(out, sizeof out));
     CHECK(is_pattern(numbers, sizeof numbers));
 }
 
-/* A stride that would wrap around memory, or step into the same point. */
+/* A stride steps over whole doubles, never into the same point, never around memory. */
 static void strides_that_overlap_or_overflow_are_refused(void) {
-    static const size_t strides[] = {1, 8, 23, SIZE_MAX, SIZE_MAX / 2 + 1};
+    static const size_t strides[] = {1, 7, 23, 25, 28, SIZE_MAX, SIZE_MAX / 2};
+    fpt_query_options options = default_options();
     for (size_t i = 0; i < COUNT_OF(strides); i++) {
-        fpt_query_options options = default_options();
+        options = default_options();
         options.point_stride = strides[i];
-        refuse_options(&options, FPT_INVALID_ARGUMENT, "stride");
-        options.point_stride = 0;
-        options.hint_stride = strides[i] < 8 || strides[i] > 100 ? strides[i] : 7;
+        refuse_options(&options, FPT_INVALID_ARGUMENT, "point_stride");
+        options = default_options();
+        options.hint_stride = strides[i];
         options.hints = two_points;
-        refuse_options(&options, FPT_INVALID_ARGUMENT, "stride");
+        refuse_options(&options, FPT_INVALID_ARGUMENT, "hint_stride");
     }
+    options = default_options();
+    options.point_stride = SIZE_MAX / 2 + 1;
+    refuse_options(&options, FPT_INVALID_ARGUMENT, "overflow");
+    options.point_stride = 0;
+    options.hint_stride = SIZE_MAX / 2 + 1;
+    options.hints = two_points;
+    refuse_options(&options, FPT_INVALID_ARGUMENT, "overflow");
+}
+
+/* A NaN is no hint; an infinity is a mistake, and is told with its place. */
+static void infinite_hints_are_refused(void) {
+    double hints[4] = {0.5, 0.5, 0.5, 0.5};
+    fpt_query_options options = default_options();
+    fpt_foot_point out[2];
+    fill_pattern(out, sizeof out);
+    options.hints = hints;
+    for (int i = 0; i < 4; i++) {
+        hints[i] = i % 2 ? INFINITY : -INFINITY;
+        if (i < 2) CHECK_ERROR(fpt_curve_closest(curve, two_points, 2, &options, out), FPT_INVALID_ARGUMENT, i ? "hint 1" : "hint 0");
+        CHECK_ERROR(fpt_surface_invert(surface, two_points, 2, &options, out), FPT_INVALID_ARGUMENT, i < 2 ? "hint 0" : "hint 1");
+        hints[i] = 0.5;
+    }
+    CHECK(is_pattern(out, sizeof out));
 }
 
 static void lengths_must_be_lengths(void) {
-    static const double bad[] = {-1, -1e-300, NAN, -INFINITY};
+    static const double bad[] = {-1, -1e-300, NAN, -INFINITY, INFINITY};
     for (size_t i = 0; i < COUNT_OF(bad); i++) {
         fpt_query_options options = default_options();
         options.tolerance = bad[i];
@@ -175,7 +199,7 @@ static void evaluation_refuses_too_many_derivatives(void) {
 }
 
 static void null_arguments_of_evaluation_are_named(void) {
-    double out[3];
+    double out[4];
     const double middle[2] = {0.5, 0.5};
     fill_pattern(out, sizeof out);
     CHECK_ERROR(fpt_curve_domain(NULL, out), FPT_NULL_ARGUMENT, "curve");
@@ -202,6 +226,7 @@ int main(void) {
     RUN(an_empty_batch_is_fine);
     RUN(counts_that_overflow_are_refused);
     RUN(strides_that_overlap_or_overflow_are_refused);
+    RUN(infinite_hints_are_refused);
     RUN(lengths_must_be_lengths);
     RUN(unknown_choices_are_refused);
     RUN(restrictions_must_lie_in_the_domain);
