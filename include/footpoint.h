@@ -1,0 +1,863 @@
+/*
+ * footpoint: from a point back to the parameters of a NURBS curve or surface, with a proof.
+ * Generated from src/ffi by build.rs; change that instead. SPDX-License-Identifier: MIT OR Apache-2.0
+ *
+ * Said once, for every function:
+ *
+ * Units     Lengths, tolerances and distances are in the unit of the poles. Parameters are in the unit of
+ *           the knots. Angles do not occur.
+ * Failure   A function that can fail returns an fpt_status: FPT_OK (0) or a number of fpt_status_code.
+ *           fpt_last_error() has the text of the calling thread's last failure; it names the parameter
+ *           and the index. Outputs are written only when FPT_OK is returned (exceptions: FPT_CANCELLED
+ *           and FPT_INTERNAL in _closest and _invert). Arguments are checked before work begins. The
+ *           library never prints, exits, throws or aborts over bad input; a defect of the library itself
+ *           returns FPT_INTERNAL, and handles stay valid.
+ * Pointers  A pointer must not be NULL unless its description says so: NULL is FPT_NULL_ARGUMENT. Arrays
+ *           are packed and aligned for their element (8 bytes for double), query points and hints need
+ *           no alignment. An array of no elements may be NULL. Outputs must not overlap inputs.
+ *           FPT_INVALID_ARGUMENT is returned for counts whose product overflows.
+ * Numbers   NaN and infinity are refused in every array but query points (the record is marked) and
+ *           hints (NaN: no hint).
+ * Ownership Inputs are copied. Handles belong to the caller and are released by the matching _free, in
+ *           any order; _free(NULL) does nothing.
+ * Threads   Handles never change after _new. A function that takes a handle as const may run on any
+ *           number of threads at a time. There is no global state and nothing to initialise. Callbacks
+ *           run on the calling thread only, may call fpt_ functions, and must not throw or longjmp.
+ * Versions  Structs that begin with struct_size grow at the end only. A struct that is longer than this
+ *           library knows is accepted when the rest is zero and FPT_UNSUPPORTED otherwise. A shorter
+ *           fpt_query_options that ends between two fields has defaults in the rest; shape data must
+ *           be complete. Records that come out are frozen. @since names the first version with a
+ *           function.
+ */
+
+
+#ifndef FOOTPOINT_H
+#define FOOTPOINT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/** The version of this header, as fpt_version() returns that of the library. */
+#define FPT_VERSION_MAJOR 0
+#define FPT_VERSION_MINOR 1
+#define FPT_VERSION_PATCH 0
+#define FPT_VERSION (FPT_VERSION_MAJOR * 1000000 + FPT_VERSION_MINOR * 1000 + FPT_VERSION_PATCH)
+/** The binary interface of this header, as fpt_abi_version() returns that of the library. */
+#define FPT_ABI_VERSION 1
+
+/** A status that is not looked at is a warning. */
+#if defined(__GNUC__) || defined(__clang__)
+#define FPT_MUST_USE __attribute__((warn_unused_result))
+#elif defined(_MSC_VER)
+#define FPT_MUST_USE _Check_return_
+#else
+#define FPT_MUST_USE
+#endif
+
+
+/**
+ * The values of fpt_status.
+ */
+typedef enum fpt_status_code {
+    /**
+     * The outputs are written.
+     */
+    FPT_OK = 0,
+    /**
+     * A pointer that must not be NULL is; the text names the parameter.
+     */
+    FPT_NULL_ARGUMENT = 1,
+    /**
+     * A value that the documentation excludes; the text names the parameter and the index.
+     */
+    FPT_INVALID_ARGUMENT = 2,
+    /**
+     * The budget ran out before a set was complete. Foot points carry FPT_FOOT_BUDGET instead.
+     */
+    FPT_BUDGET_EXHAUSTED = 3,
+    /**
+     * should_stop returned non-zero. Records not reached are marked, see fpt_foot_point.
+     */
+    FPT_CANCELLED = 4,
+    /**
+     * A request of a newer version, or one that this version cannot answer.
+     */
+    FPT_UNSUPPORTED = 5,
+    /**
+     * Memory that could not be had.
+     */
+    FPT_OUT_OF_MEMORY = 6,
+    /**
+     * A defect of the library. Handles stay valid; please report the text of fpt_last_error.
+     */
+    FPT_INTERNAL = 99,
+} fpt_status_code;
+
+/**
+ * The bits of fpt_foot_point.flags.
+ */
+typedef enum fpt_foot_flag {
+    /**
+     * distance - lower_bound is more than the accuracy and the rounding floor of this shape and query.
+     */
+    FPT_FOOT_NOT_PROVEN = 1,
+    /**
+     * One parameter is bit-equal to an end of the domain; on a curve: the foot is an end.
+     */
+    FPT_FOOT_EDGE = 2,
+    /**
+     * Both parameters are bit-equal to ends of the domain.
+     */
+    FPT_FOOT_CORNER = 4,
+    /**
+     * The foot lies on the seam of a closed direction.
+     */
+    FPT_FOOT_SEAM = 8,
+    /**
+     * The foot lies on an edge that is a single point.
+     */
+    FPT_FOOT_COLLAPSED = 16,
+    /**
+     * Another foot is within the accuracy of the least distance.
+     */
+    FPT_FOOT_TIE = 32,
+    /**
+     * A whole arc or region is equally near.
+     */
+    FPT_FOOT_CONTINUUM = 64,
+    /**
+     * invert: lower_bound is more than the tolerance. With FPT_FOOT_NOT_PROVEN as well the distance is
+     * more than the tolerance but the bound is not.
+     */
+    FPT_FOOT_NOT_ON_SHAPE = 128,
+    /**
+     * The query point has a NaN, an infinity or a coordinate beyond 1e100.
+     */
+    FPT_FOOT_BAD_QUERY = 256,
+    /**
+     * The answer was reached from the hint.
+     */
+    FPT_FOOT_HINT_USED = 512,
+    /**
+     * The budget ran out before the proof was complete.
+     */
+    FPT_FOOT_BUDGET = 1024,
+    /**
+     * The foot lies on a geometric break of the tangent.
+     */
+    FPT_FOOT_CREASE = 2048,
+} fpt_foot_flag;
+
+/**
+ * Local iteration, for fpt_query_options.method. Global answers are certified with each.
+ */
+typedef enum fpt_method {
+    /**
+     * The best of the others, chosen by the library.
+     */
+    FPT_METHOD_AUTO = 0,
+    /**
+     * Moving affine frame: steps to the foot on the tangent line or plane.
+     */
+    FPT_METHOD_MAF = 1,
+    /**
+     * Newton's method for the stationary point of the squared distance.
+     */
+    FPT_METHOD_NEWTON = 2,
+    /**
+     * A second-order step on the osculating circle or paraboloid.
+     */
+    FPT_METHOD_OSCULATING = 3,
+} fpt_method;
+
+/**
+ * What an answer is about, for fpt_query_options.scope.
+ */
+typedef enum fpt_scope {
+    /**
+     * The whole shape (or the restricted domain), with proof.
+     */
+    FPT_SCOPE_GLOBAL = 0,
+    /**
+     * One local iteration from the hint, or without a hint from the published decomposition start.
+     * Answers carry FPT_FOOT_NOT_PROVEN and lower_bound 0.
+     */
+    FPT_SCOPE_LOCAL = 1,
+} fpt_scope;
+
+/**
+ * A curve. Immutable: any number of threads may use one at a time. The search index is built on first
+ * use, by one thread while the others wait. Made by fpt_curve_new, owned by the caller, released by
+ * fpt_curve_free.
+ */
+typedef struct fpt_curve fpt_curve;
+
+/**
+ * A surface. Immutable: any number of threads may use one at a time. The search index is built on first
+ * use, by one thread while the others wait. Made by fpt_surface_new, owned by the caller, released by
+ * fpt_surface_free.
+ */
+typedef struct fpt_surface fpt_surface;
+
+/**
+ * What a call returns: FPT_OK (0) or one of the other numbers of fpt_status_code. Never renumbered.
+ */
+typedef int32_t fpt_status;
+
+/**
+ * How to answer queries. Fill it with fpt_query_options_init, then change what matters. All zero after
+ * struct_size is the default of everything. Grows at the end only.
+ */
+typedef struct fpt_query_options {
+    /**
+     * sizeof(fpt_query_options), set by fpt_query_options_init.
+     */
+    size_t struct_size;
+    /**
+     * Length, finite, >= 0. invert: points farther away are not on the shape. 0: 1e-7 x the diagonal of
+     * the shape's box.
+     */
+    double tolerance;
+    /**
+     * Length, finite, >= 0. The asked-for distance - lower_bound. 0: 1e-10 x the diagonal of the shape's
+     * box. Never an early stop: feet are always polished to the limit of the arithmetic.
+     */
+    double accuracy;
+    /**
+     * A value of fpt_method.
+     */
+    uint32_t method;
+    /**
+     * A value of fpt_scope.
+     */
+    uint32_t scope;
+    /**
+     * Start parameters, (u,v) per query on a surface, u on a curve; NULL: none. A NaN means no hint for
+     * this query, an infinity is FPT_INVALID_ARGUMENT, a parameter outside is moved to the domain.
+     * Borrowed during the call. A hint never changes the distance by more than the accuracy, nor
+     * whether an answer is proven.
+     */
+    const double *hints;
+    /**
+     * Bytes from one query point to the next: 0 (packed: 24) or a multiple of 8, at least 24.
+     */
+    size_t point_stride;
+    /**
+     * Bytes from one hint to the next: 0 (packed: 16 on a surface, 8 on a curve) or a multiple of 8, at
+     * least that. Looked at only with hints.
+     */
+    size_t hint_stride;
+    /**
+     * Restricts the answers to u0,u1,v0,v1 inside the domain with u0 < u1 and v0 < v1. All 0: the whole
+     * domain. On a curve only u0,u1 count.
+     */
+    double domain[4];
+    /**
+     * 0: all cores, 1: the calling thread only. Answers are the same bits for any number.
+     */
+    uint32_t threads;
+    /**
+     * Must be 0.
+     */
+    uint32_t reserved;
+    /**
+     * Nodes and subdivisions per query; 0: the default. A query that runs out has FPT_FOOT_BUDGET.
+     */
+    uint64_t budget;
+    /**
+     * Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED. NULL: never.
+     */
+    int (*should_stop)(void *user);
+    /**
+     * Told on the calling thread now and then, and once at the end with done = total. While the index
+     * is built, done is 0. NULL: nobody.
+     */
+    void (*progress)(void *user, size_t done, size_t total);
+    /**
+     * Told each iteration on the calling thread; step 0 is the start of a refinement. Forces one thread.
+     * NULL: nobody.
+     */
+    void (*trace)(void *user, size_t query, uint32_t step, double u, double v, double residual);
+    /**
+     * Handed to the three callbacks as it is.
+     */
+    void *user;
+} fpt_query_options;
+
+/**
+ * The input of fpt_curve_new. Copied: nothing is borrowed after the call.
+ */
+typedef struct fpt_curve_data {
+    /**
+     * sizeof(fpt_curve_data).
+     */
+    size_t struct_size;
+    /**
+     * 1 to 31.
+     */
+    size_t degree;
+    /**
+     * At least degree + 1.
+     */
+    size_t pole_count;
+    /**
+     * pole_count + degree + 1 numbers, finite, not decreasing, repeats written out, no interior knot
+     * more than degree times. Periodic curves come unrolled: the domain is knots[degree] to
+     * knots[pole_count].
+     */
+    const double *knots;
+    /**
+     * x,y,z of pole i at 3*i, finite; plane curves have z = 0. Not multiplied by the weights.
+     */
+    const double *poles;
+    /**
+     * One per pole, finite, > 0; NULL: polynomial.
+     */
+    const double *weights;
+} fpt_curve_data;
+
+/**
+ * The input of fpt_surface_new. Copied: nothing is borrowed after the call.
+ */
+typedef struct fpt_surface_data {
+    /**
+     * sizeof(fpt_surface_data).
+     */
+    size_t struct_size;
+    /**
+     * 1 to 31.
+     */
+    size_t degree_u;
+    /**
+     * 1 to 31.
+     */
+    size_t degree_v;
+    /**
+     * At least degree_u + 1.
+     */
+    size_t pole_count_u;
+    /**
+     * At least degree_v + 1.
+     */
+    size_t pole_count_v;
+    /**
+     * pole_count_u + degree_u + 1 numbers, finite, not decreasing, repeats written out, no interior knot
+     * more than degree_u times. Periodic surfaces come unrolled: the domain is knots_u[degree_u] to
+     * knots_u[pole_count_u].
+     */
+    const double *knots_u;
+    /**
+     * The same in v.
+     */
+    const double *knots_v;
+    /**
+     * x,y,z of pole (i,j) at 3*(i*pole_count_v + j), finite. Not multiplied by the weights.
+     */
+    const double *poles;
+    /**
+     * Of pole (i,j) at i*pole_count_v + j, finite, > 0; NULL: polynomial.
+     */
+    const double *weights;
+} fpt_surface_data;
+
+/**
+ * The answer to one query: 64 bytes, frozen.
+ *
+ * A query that was not reached when should_stop ended the call has NaN in u, v, point and distance,
+ * lower_bound 0 and FPT_FOOT_NOT_PROVEN. A bad query point (NaN, infinite or beyond 1e100) has
+ * FPT_FOOT_BAD_QUERY.
+ */
+typedef struct fpt_foot_point {
+    /**
+     * First parameter, in the domain.
+     */
+    double u;
+    /**
+     * Second parameter, in the domain; 0 on a curve.
+     */
+    double v;
+    /**
+     * The shape at (u,v), bit for bit what _evaluate returns there.
+     */
+    double point[3];
+    /**
+     * |query - point|.
+     */
+    double distance;
+    /**
+     * Proven: nothing on the shape (in the restricted domain) is nearer to the query than this. At
+     * most distance; 0 in local scope.
+     */
+    double lower_bound;
+    /**
+     * Sum of fpt_foot_flag values.
+     */
+    uint32_t flags;
+    /**
+     * Evaluations of the shape spent on this query.
+     */
+    uint32_t iterations;
+} fpt_foot_point;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+/**
+ * The text of the calling thread's last failure, "" when there was none. It names the parameter and
+ * the index, for example "poles: pole 17 is not finite". Never NULL. A call that succeeds leaves it.
+ * Valid until the same thread's next failure or its end; copy it to keep it.
+ * @since 0.1
+ */
+const char *fpt_last_error(void);
+
+/**
+ * The name of a status, for example "FPT_INVALID_ARGUMENT"; "FPT_?" for a number that is none.
+ * A constant of the library: never NULL, never freed.
+ * @since 0.1
+ */
+const char *fpt_status_name(fpt_status status);
+
+/**
+ * The version of the library in use: major*1000000 + minor*1000 + patch, as FPT_VERSION of the header.
+ * @since 0.1
+ */
+uint32_t fpt_version(void);
+
+/**
+ * The binary interface of the library in use: the number in its SONAME, written as one integer. The
+ * SONAME is 0.MINOR while the major version is 0 and this returns MINOR; from 1.0 on the SONAME is
+ * MAJOR and this returns major*1000. A program may use the library when this equals the
+ * FPT_ABI_VERSION that it was compiled with.
+ * @since 0.1
+ */
+uint32_t fpt_abi_version(void);
+
+/**
+ * Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.
+ * Does nothing when `options` is NULL or struct_size is smaller than a size_t.
+ * @since 0.1
+ */
+void fpt_query_options_init(struct fpt_query_options *options, size_t struct_size);
+
+/**
+ * Makes a curve from its inputs.
+ *
+ * @param data  the inputs, copied; a struct_size shorter than the struct is FPT_INVALID_ARGUMENT
+ * @param out   the handle; release it with fpt_curve_free
+ * @return FPT_INVALID_ARGUMENT names the array and the index of the first bad number
+ * @since 0.1
+ */
+FPT_MUST_USE fpt_status fpt_curve_new(const struct fpt_curve_data *data, struct fpt_curve **out);
+
+/**
+ * Releases a curve. NULL is fine. No other call may use the handle during or after this one.
+ * @since 0.1
+ */
+void fpt_curve_free(struct fpt_curve *curve);
+
+/**
+ * The interval on which the curve is defined.
+ *
+ * @param out_u  2 numbers: start, end
+ * @since 0.1
+ */
+FPT_MUST_USE fpt_status fpt_curve_domain(const struct fpt_curve *curve, double *out_u);
+
+/**
+ * The curve and its derivatives at one parameter. At a knot the piece on the right counts, at the
+ * domain's end the one on the left.
+ *
+ * @param u            in the domain, else FPT_INVALID_ARGUMENT
+ * @param derivatives  highest order d, at most 31; 0: the point only
+ * @param out          3*(d + 1) numbers: C, C', C'', ... with x,y,z each
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_evaluate(const struct fpt_curve *curve,
+                              double u,
+                              uint32_t derivatives,
+                              double *out);
+
+/**
+ * The curve and its derivatives at many parameters, as fpt_curve_evaluate gives them one by one.
+ *
+ * @param parameters   `count` numbers, each in the domain; the error names the first that is not
+ * @param count        may be 0
+ * @param derivatives  highest order d, at most 31
+ * @param out          count*3*(d + 1) numbers, the values of parameter i at i*3*(d + 1); must not
+ *                     overlap `parameters`
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_evaluate_many(const struct fpt_curve *curve,
+                                   const double *parameters,
+                                   size_t count,
+                                   uint32_t derivatives,
+                                   double *out);
+
+/**
+ * The degree.
+ * @since 0.1
+ */
+FPT_MUST_USE fpt_status fpt_curve_degree(const struct fpt_curve *curve, size_t *out_degree);
+
+/**
+ * The number of poles.
+ * @since 0.1
+ */
+FPT_MUST_USE fpt_status fpt_curve_pole_count(const struct fpt_curve *curve, size_t *out_pole_count);
+
+/**
+ * The knots, bit for bit as they came in.
+ *
+ * @param capacity   how many numbers `out_knots` has room for; less than pole_count + degree + 1 is
+ *                   FPT_INVALID_ARGUMENT
+ * @param out_knots  pole_count + degree + 1 numbers
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_knots(const struct fpt_curve *curve,
+                           size_t capacity,
+                           double *out_knots);
+
+/**
+ * The poles, bit for bit as they came in.
+ *
+ * @param capacity   how many numbers `out_poles` has room for; less than 3*pole_count is
+ *                   FPT_INVALID_ARGUMENT
+ * @param out_poles  3*pole_count numbers: x,y,z of pole i at 3*i
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_poles(const struct fpt_curve *curve,
+                           size_t capacity,
+                           double *out_poles);
+
+/**
+ * The weights as they came in; all 1 for a polynomial curve.
+ *
+ * @param capacity     how many numbers `out_weights` has room for; less than pole_count is
+ *                     FPT_INVALID_ARGUMENT
+ * @param out_weights  pole_count numbers
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_weights(const struct fpt_curve *curve,
+                             size_t capacity,
+                             double *out_weights);
+
+/**
+ * The box of the poles that act on the domain; the curve lies in it. Its diagonal is what the default
+ * tolerance and accuracy are relative to.
+ *
+ * @param out_box  6 numbers: least x,y,z, then greatest x,y,z
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_box(const struct fpt_curve *curve,
+                         double *out_box);
+
+/**
+ * Whether the curve came with weights: 1 or 0.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_is_rational(const struct fpt_curve *curve,
+                                 int32_t *out_is_rational);
+
+/**
+ * Whether the curve ends where it starts, as geometry and not only by its knots: 1 or 0.
+ * @since 0.1
+ */
+FPT_MUST_USE fpt_status fpt_curve_is_closed(const struct fpt_curve *curve, int32_t *out_is_closed);
+
+/**
+ * Builds the search index now instead of on the first query. May be called again and from any thread.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_prepare(const struct fpt_curve *curve);
+
+/**
+ * Makes a surface from its inputs.
+ *
+ * @param data  the inputs, copied; a struct_size shorter than the struct is FPT_INVALID_ARGUMENT
+ * @param out   the handle; release it with fpt_surface_free
+ * @return FPT_INVALID_ARGUMENT names the array and the index of the first bad number
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_new(const struct fpt_surface_data *data,
+                           struct fpt_surface **out);
+
+/**
+ * Releases a surface. NULL is fine. No other call may use the handle during or after this one.
+ * @since 0.1
+ */
+void fpt_surface_free(struct fpt_surface *surface);
+
+/**
+ * The rectangle on which the surface is defined.
+ *
+ * @param out_uv  4 numbers: start and end of u, start and end of v
+ * @since 0.1
+ */
+FPT_MUST_USE fpt_status fpt_surface_domain(const struct fpt_surface *surface, double *out_uv);
+
+/**
+ * The surface and its partial derivatives at one pair of parameters. At a knot the piece on the right
+ * counts, at the domain's end the one on the left.
+ *
+ * @param u            in the domain, else FPT_INVALID_ARGUMENT
+ * @param v            in the domain, else FPT_INVALID_ARGUMENT
+ * @param derivatives  highest total order d, at most 31; 0: the point only
+ * @param out          3*(d + 1)*(d + 2)/2 numbers, order by order: S; Su,Sv; Suu,Suv,Svv; ... with
+ *                     x,y,z each
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_evaluate(const struct fpt_surface *surface,
+                                double u,
+                                double v,
+                                uint32_t derivatives,
+                                double *out);
+
+/**
+ * The surface and its partial derivatives at many pairs of parameters, as fpt_surface_evaluate gives
+ * them one by one.
+ *
+ * @param parameters   2*count numbers: u,v of pair i at 2*i, each in the domain; the error names the
+ *                     first that is not
+ * @param count        pairs; may be 0
+ * @param derivatives  highest total order d, at most 31
+ * @param out          count*n numbers with n = 3*(d + 1)*(d + 2)/2, the values of pair i at i*n; must
+ *                     not overlap `parameters`
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_evaluate_many(const struct fpt_surface *surface,
+                                     const double *parameters,
+                                     size_t count,
+                                     uint32_t derivatives,
+                                     double *out);
+
+/**
+ * The degree in u.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_degree_u(const struct fpt_surface *surface,
+                                size_t *out_degree_u);
+
+/**
+ * The degree in v.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_degree_v(const struct fpt_surface *surface,
+                                size_t *out_degree_v);
+
+/**
+ * The number of poles in u.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_pole_count_u(const struct fpt_surface *surface,
+                                    size_t *out_pole_count_u);
+
+/**
+ * The number of poles in v.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_pole_count_v(const struct fpt_surface *surface,
+                                    size_t *out_pole_count_v);
+
+/**
+ * The knots in u, bit for bit as they came in.
+ *
+ * @param capacity     how many numbers `out_knots_u` has room for; less than
+ *                     pole_count_u + degree_u + 1 is FPT_INVALID_ARGUMENT
+ * @param out_knots_u  pole_count_u + degree_u + 1 numbers
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_knots_u(const struct fpt_surface *surface,
+                               size_t capacity,
+                               double *out_knots_u);
+
+/**
+ * The knots in v, bit for bit as they came in.
+ *
+ * @param capacity     how many numbers `out_knots_v` has room for; less than
+ *                     pole_count_v + degree_v + 1 is FPT_INVALID_ARGUMENT
+ * @param out_knots_v  pole_count_v + degree_v + 1 numbers
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_knots_v(const struct fpt_surface *surface,
+                               size_t capacity,
+                               double *out_knots_v);
+
+/**
+ * The poles, bit for bit as they came in.
+ *
+ * @param capacity   how many numbers `out_poles` has room for; less than
+ *                   3*pole_count_u*pole_count_v is FPT_INVALID_ARGUMENT
+ * @param out_poles  3*pole_count_u*pole_count_v numbers: x,y,z of pole (i,j) at
+ *                   3*(i*pole_count_v + j)
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_poles(const struct fpt_surface *surface,
+                             size_t capacity,
+                             double *out_poles);
+
+/**
+ * The weights as they came in; all 1 for a polynomial surface.
+ *
+ * @param capacity     how many numbers `out_weights` has room for; less than
+ *                     pole_count_u*pole_count_v is FPT_INVALID_ARGUMENT
+ * @param out_weights  pole_count_u*pole_count_v numbers: of pole (i,j) at i*pole_count_v + j
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_weights(const struct fpt_surface *surface,
+                               size_t capacity,
+                               double *out_weights);
+
+/**
+ * The box of the poles that act on the domain; the surface lies in it. Its diagonal is what the default
+ * tolerance and accuracy are relative to.
+ *
+ * @param out_box  6 numbers: least x,y,z, then greatest x,y,z
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_box(const struct fpt_surface *surface,
+                           double *out_box);
+
+/**
+ * Whether the surface came with weights: 1 or 0.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_is_rational(const struct fpt_surface *surface,
+                                   int32_t *out_is_rational);
+
+/**
+ * Whether the edges at the start and the end of u are one curve, as geometry and not only by the
+ * knots: 1 or 0.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_is_closed_u(const struct fpt_surface *surface,
+                                   int32_t *out_is_closed_u);
+
+/**
+ * Whether the edges at the start and the end of v are one curve, as geometry and not only by the
+ * knots: 1 or 0.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_is_closed_v(const struct fpt_surface *surface,
+                                   int32_t *out_is_closed_v);
+
+/**
+ * Which edges of the domain are a single point in space.
+ *
+ * @param out_collapsed  4 numbers, 1 or 0: the edges at the start of u, the end of u, the start of v,
+ *                       the end of v
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_collapsed_edges(const struct fpt_surface *surface,
+                                       int32_t *out_collapsed);
+
+/**
+ * Builds the search index now instead of on the first query. May be called again and from any thread.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_prepare(const struct fpt_surface *surface);
+
+/**
+ * The nearest point of the curve for each query point, with a proven lower bound of the distance.
+ *
+ * @param points   `count` query points x,y,z, options->point_stride bytes apart. A bad point (NaN,
+ *                 infinite, beyond 1e100) marks its own record with FPT_FOOT_BAD_QUERY
+ * @param count    may be 0, then `points` and `out` may be NULL
+ * @param options  NULL: the defaults
+ * @param out      `count` records, packed; must not overlap `points` or the hints
+ * @return FPT_CANCELLED when should_stop said so; then the records not reached have NaN in u, v, point
+ *         and distance, lower_bound 0 and FPT_FOOT_NOT_PROVEN. After FPT_INTERNAL the records have no
+ *         defined contents
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_closest(const struct fpt_curve *curve,
+                             const double *points,
+                             size_t count,
+                             const struct fpt_query_options *options,
+                             struct fpt_foot_point *out);
+
+/**
+ * The parameters of points that lie on the curve: as fpt_curve_closest, and points proven to be
+ * farther than options->tolerance are marked with FPT_FOOT_NOT_ON_SHAPE.
+ *
+ * @param points   as for fpt_curve_closest
+ * @param count    as for fpt_curve_closest
+ * @param options  NULL: the defaults
+ * @param out      as for fpt_curve_closest
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_invert(const struct fpt_curve *curve,
+                            const double *points,
+                            size_t count,
+                            const struct fpt_query_options *options,
+                            struct fpt_foot_point *out);
+
+/**
+ * The nearest point of the surface for each query point, with a proven lower bound of the distance.
+ *
+ * @param points   `count` query points x,y,z, options->point_stride bytes apart. A bad point (NaN,
+ *                 infinite, beyond 1e100) marks its own record with FPT_FOOT_BAD_QUERY
+ * @param count    may be 0, then `points` and `out` may be NULL
+ * @param options  NULL: the defaults
+ * @param out      `count` records, packed; must not overlap `points` or the hints
+ * @return FPT_CANCELLED when should_stop said so; then the records not reached have NaN in u, v, point
+ *         and distance, lower_bound 0 and FPT_FOOT_NOT_PROVEN. After FPT_INTERNAL the records have no
+ *         defined contents
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_closest(const struct fpt_surface *surface,
+                               const double *points,
+                               size_t count,
+                               const struct fpt_query_options *options,
+                               struct fpt_foot_point *out);
+
+/**
+ * The parameters of points that lie on the surface: as fpt_surface_closest, and points proven to be
+ * farther than options->tolerance are marked with FPT_FOOT_NOT_ON_SHAPE.
+ *
+ * @param points   as for fpt_surface_closest
+ * @param count    as for fpt_surface_closest
+ * @param options  NULL: the defaults
+ * @param out      as for fpt_surface_closest
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_invert(const struct fpt_surface *surface,
+                              const double *points,
+                              size_t count,
+                              const struct fpt_query_options *options,
+                              struct fpt_foot_point *out);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* FOOTPOINT_H */

@@ -1,0 +1,306 @@
+//! Batches of queries: closest and invert, on curves and surfaces.
+//!
+//! All four functions are one path: read and check everything ([`Batch::read`]), build the index, let
+//! the batch layer answer into the caller's records. Callbacks run on the calling thread only.
+
+use super::curve::{self, fpt_curve};
+use super::memory::Strided;
+use super::options::fpt_query_options;
+use super::records::{feet, fpt_foot_point};
+use super::surface::{self, fpt_surface};
+use super::{Failure, fpt_status, guard};
+use crate::batch;
+use crate::closest::{FootPoint, QueryOptions, Trace, Workspace};
+use crate::error::Error;
+use crate::index::{IndexedCurve, IndexedSurface};
+use std::ffi::{c_int, c_void};
+
+/// The nearest point of the curve for each query point, with a proven lower bound of the distance.
+///
+/// @param points   `count` query points x,y,z, options->point_stride bytes apart. A bad point (NaN,
+///                 infinite, beyond 1e100) marks its own record with FPT_FOOT_BAD_QUERY
+/// @param count    may be 0, then `points` and `out` may be NULL
+/// @param options  NULL: the defaults
+/// @param out      `count` records, packed; must not overlap `points` or the hints
+/// @return FPT_CANCELLED when should_stop said so; then the records not reached have NaN in u, v, point
+///         and distance, lower_bound 0 and FPT_FOOT_NOT_PROVEN. After FPT_INTERNAL the records have no
+///         defined contents
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_curve_closest(
+    curve: *const fpt_curve,
+    points: *const f64,
+    count: usize,
+    options: *const fpt_query_options,
+    out: *mut fpt_foot_point,
+) -> fpt_status {
+    // SAFETY: the header asks for a live handle and arrays of these lengths that do not overlap.
+    guard(|| unsafe {
+        let curve = curve::indexed(curve)?;
+        Batch::read(curve, points, count, options, out)?
+            .run(|c, q, h, o, w, t| c.closest(q, h.map(|[u]| u), o, w, t))
+    })
+}
+
+/// The parameters of points that lie on the curve: as fpt_curve_closest, and points proven to be
+/// farther than options->tolerance are marked with FPT_FOOT_NOT_ON_SHAPE.
+///
+/// @param points   as for fpt_curve_closest
+/// @param count    as for fpt_curve_closest
+/// @param options  NULL: the defaults
+/// @param out      as for fpt_curve_closest
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_curve_invert(
+    curve: *const fpt_curve,
+    points: *const f64,
+    count: usize,
+    options: *const fpt_query_options,
+    out: *mut fpt_foot_point,
+) -> fpt_status {
+    // SAFETY: the header asks for a live handle and arrays of these lengths that do not overlap.
+    guard(|| unsafe {
+        let curve = curve::indexed(curve)?;
+        Batch::read(curve, points, count, options, out)?
+            .run(|c, q, h, o, w, t| c.invert(q, h.map(|[u]| u), o, w, t))
+    })
+}
+
+/// The nearest point of the surface for each query point, with a proven lower bound of the distance.
+///
+/// @param points   `count` query points x,y,z, options->point_stride bytes apart. A bad point (NaN,
+///                 infinite, beyond 1e100) marks its own record with FPT_FOOT_BAD_QUERY
+/// @param count    may be 0, then `points` and `out` may be NULL
+/// @param options  NULL: the defaults
+/// @param out      `count` records, packed; must not overlap `points` or the hints
+/// @return FPT_CANCELLED when should_stop said so; then the records not reached have NaN in u, v, point
+///         and distance, lower_bound 0 and FPT_FOOT_NOT_PROVEN. After FPT_INTERNAL the records have no
+///         defined contents
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_surface_closest(
+    surface: *const fpt_surface,
+    points: *const f64,
+    count: usize,
+    options: *const fpt_query_options,
+    out: *mut fpt_foot_point,
+) -> fpt_status {
+    // SAFETY: the header asks for a live handle and arrays of these lengths that do not overlap.
+    guard(|| unsafe {
+        let surface = surface::indexed(surface)?;
+        Batch::read(surface, points, count, options, out)?.run(IndexedSurface::closest)
+    })
+}
+
+/// The parameters of points that lie on the surface: as fpt_surface_closest, and points proven to be
+/// farther than options->tolerance are marked with FPT_FOOT_NOT_ON_SHAPE.
+///
+/// @param points   as for fpt_surface_closest
+/// @param count    as for fpt_surface_closest
+/// @param options  NULL: the defaults
+/// @param out      as for fpt_surface_closest
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_surface_invert(
+    surface: *const fpt_surface,
+    points: *const f64,
+    count: usize,
+    options: *const fpt_query_options,
+    out: *mut fpt_foot_point,
+) -> fpt_status {
+    // SAFETY: the header asks for a live handle and arrays of these lengths that do not overlap.
+    guard(|| unsafe {
+        let surface = surface::indexed(surface)?;
+        Batch::read(surface, points, count, options, out)?.run(IndexedSurface::invert)
+    })
+}
+
+/// What a batch needs of a shape with `N` parameters.
+trait Shape<const N: usize>: Sync {
+    /// Start and end of each parameter.
+    fn ends(&self) -> [[f64; 2]; N];
+    fn check_restriction(&self, domain: [f64; 4]) -> Result<(), Error>;
+    fn build(&self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error>;
+}
+
+impl Shape<1> for IndexedCurve {
+    fn ends(&self) -> [[f64; 2]; 1] {
+        let (start, end) = self.curve().domain();
+        [[start, end]]
+    }
+
+    fn check_restriction(&self, domain: [f64; 4]) -> Result<(), Error> {
+        self.check_domain(domain)
+    }
+
+    fn build(&self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error> {
+        self.prepare(poll)
+    }
+}
+
+impl Shape<2> for IndexedSurface {
+    fn ends(&self) -> [[f64; 2]; 2] {
+        let [u0, u1, v0, v1] = self.surface().domain();
+        [[u0, u1], [v0, v1]]
+    }
+
+    fn check_restriction(&self, domain: [f64; 4]) -> Result<(), Error> {
+        self.check_domain(domain)
+    }
+
+    fn build(&self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error> {
+        self.prepare(poll)
+    }
+}
+
+/// One operation on one query point.
+type Ask<S, const N: usize> = fn(
+    &S,
+    [f64; 3],
+    Option<[f64; N]>,
+    &QueryOptions,
+    &mut Workspace,
+    Option<Trace<'_>>,
+) -> FootPoint;
+
+/// The checked arguments of one call.
+struct Batch<'a, S, const N: usize> {
+    shape: &'a S,
+    points: Strided<'a, 3>,
+    hints: Option<Strided<'a, N>>,
+    /// Start and end of each parameter, restricted: where hints are moved to.
+    ends: [[f64; 2]; N],
+    options: QueryOptions,
+    threads: usize,
+    callbacks: Callbacks,
+    out: &'a mut [FootPoint],
+}
+
+impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
+    /// Reads every argument; nothing is written yet.
+    ///
+    /// # Safety
+    /// Pointers that are not NULL point to what the header asks for, for as long as the call lasts.
+    unsafe fn read(
+        shape: &'a S,
+        points: *const f64,
+        count: usize,
+        options: *const fpt_query_options,
+        out: *mut fpt_foot_point,
+    ) -> Result<Self, Failure> {
+        // SAFETY: the caller vouches for the pointers.
+        unsafe {
+            let given = fpt_query_options::read(options)?;
+            let options = given.checked(2 * N)?;
+            let ends = restricted(shape, options.domain)?;
+            let points =
+                Strided::new(("points", points), count, ("point_stride", given.point_stride))?;
+            let hints = if given.hints.is_null() {
+                None
+            } else {
+                let stride = ("hint_stride", given.hint_stride);
+                Some(Strided::new(("hints", given.hints), count, stride)?)
+            };
+            hints.as_ref().map_or(Ok(()), check_hints)?;
+            let out = feet(out, count)?;
+            let (threads, callbacks) = (given.thread_count(), Callbacks::of(&given));
+            Ok(Self { shape, points, hints, ends, options, threads, callbacks, out })
+        }
+    }
+
+    fn run(self, ask: Ask<S, N>) -> Result<(), Failure> {
+        let Self { shape, points, hints, ends, options, threads, callbacks, out } = self;
+        let total = out.len();
+        if total == 0 {
+            return Ok(());
+        }
+        let built = shape.build(&mut || callbacks.poll(0, total));
+        if built == Err(Error::Cancelled) {
+            out.fill(FootPoint::unreached());
+        }
+        built?;
+        let work = |i: usize, workspace: &mut Workspace| {
+            let hint = hints.and_then(|hints| hint(hints.row(i), ends));
+            let mut told = |step, u, v, residual| callbacks.trace(i, step, [u, v], residual);
+            let trace: Option<Trace<'_>> =
+                if callbacks.trace.is_some() { Some(&mut told) } else { None };
+            ask(shape, points.row(i), hint, &options, workspace, trace)
+        };
+        batch::run(out, threads, &work, &mut |done| callbacks.poll(done, total))?;
+        callbacks.report(total, total);
+        Ok(())
+    }
+}
+
+/// The domain that answers come from.
+fn restricted<S: Shape<N>, const N: usize>(
+    shape: &S,
+    domain: Option<[f64; 4]>,
+) -> Result<[[f64; 2]; N], Failure> {
+    let Some(domain) = domain else {
+        return Ok(shape.ends());
+    };
+    shape.check_restriction(domain)?;
+    Ok(std::array::from_fn(|k| [domain[2 * k], domain[2 * k + 1]]))
+}
+
+fn check_hints<const N: usize>(hints: &Strided<'_, N>) -> Result<(), Failure> {
+    match (0..hints.len()).find(|&i| hints.row(i).iter().any(|x| x.is_infinite())) {
+        Some(i) => Err(Failure::invalid(format!("hints: hint {i} is infinite"))),
+        None => Ok(()),
+    }
+}
+
+/// A hint moved to the domain; `None` when a number in it is NaN.
+fn hint<const N: usize>(row: [f64; N], ends: [[f64; 2]; N]) -> Option<[f64; N]> {
+    let moved = std::array::from_fn(|k| row[k].max(ends[k][0]).min(ends[k][1]));
+    if row.iter().any(|x| x.is_nan()) { None } else { Some(moved) }
+}
+
+type ShouldStop = unsafe extern "C" fn(*mut c_void) -> c_int;
+type Progress = unsafe extern "C" fn(*mut c_void, usize, usize);
+type TraceStep = unsafe extern "C" fn(*mut c_void, usize, u32, f64, f64, f64);
+
+/// The caller's functions and what they are handed.
+struct Callbacks {
+    should_stop: Option<ShouldStop>,
+    progress: Option<Progress>,
+    trace: Option<TraceStep>,
+    user: *mut c_void,
+}
+
+// SAFETY: the functions are called on the calling thread only: `poll` and `report` by the batch layer's
+// contract, `trace` because a trace makes the batch run on that thread alone.
+unsafe impl Sync for Callbacks {}
+
+impl Callbacks {
+    fn of(options: &fpt_query_options) -> Self {
+        let fpt_query_options { should_stop, progress, trace, user, .. } = *options;
+        Self { should_stop, progress, trace, user }
+    }
+
+    /// Tells how far the call is and asks whether to stop.
+    fn poll(&self, done: usize, total: usize) -> bool {
+        self.report(done, total);
+        // SAFETY: the header asks for functions that take this `user` and do not unwind.
+        self.should_stop.is_some_and(|should_stop| unsafe { should_stop(self.user) } != 0)
+    }
+
+    fn report(&self, done: usize, total: usize) {
+        if let Some(progress) = self.progress {
+            // SAFETY: as in `poll`.
+            unsafe { progress(self.user, done, total) }
+        }
+    }
+
+    fn trace(&self, query: usize, step: u32, [u, v]: [f64; 2], residual: f64) {
+        if let Some(trace) = self.trace {
+            // SAFETY: as in `poll`.
+            unsafe { trace(self.user, query, step, u, v, residual) }
+        }
+    }
+}
