@@ -46,6 +46,8 @@ static void an_empty_batch_is_fine(void) {
     for (int k = 0; k < 2; k++) {
         CHECK_OK(curve_queries[k](curve, two_points, 0, NULL, out));
         CHECK_OK(surface_queries[k](surface, two_points, 0, NULL, out));
+        CHECK_OK(curve_queries[k](curve, NULL, 0, NULL, NULL));
+        CHECK_OK(surface_queries[k](surface, NULL, 0, NULL, NULL));
     }
     CHECK(is_pattern(out, sizeof out));
 }
@@ -198,6 +200,50 @@ static void evaluation_refuses_too_many_derivatives(void) {
     CHECK(is_pattern(out, sizeof out));
 }
 
+/* Getters: the handle, the output, and for arrays a capacity that is one too small. */
+static void getters_refuse_null_and_too_little_room(void) {
+    size_t size;
+    int32_t number[4];
+    double out[84];
+    fill_pattern(&size, sizeof size);
+    fill_pattern(number, sizeof number);
+    fill_pattern(out, sizeof out);
+#define REFUSE(noun, getter, room)                                                                 \
+    CHECK_ERROR(fpt_##noun##_##getter(NULL, room), FPT_NULL_ARGUMENT, #noun);                      \
+    CHECK_ERROR(fpt_##noun##_##getter(noun, NULL), FPT_NULL_ARGUMENT, "out")
+    REFUSE(curve, degree, &size);
+    REFUSE(curve, pole_count, &size);
+    REFUSE(curve, box, out);
+    REFUSE(curve, is_rational, number);
+    REFUSE(curve, is_closed, number);
+    REFUSE(surface, degree_u, &size);
+    REFUSE(surface, degree_v, &size);
+    REFUSE(surface, pole_count_u, &size);
+    REFUSE(surface, pole_count_v, &size);
+    REFUSE(surface, box, out);
+    REFUSE(surface, is_rational, number);
+    REFUSE(surface, is_closed_u, number);
+    REFUSE(surface, is_closed_v, number);
+    REFUSE(surface, collapsed_edges, number);
+#undef REFUSE
+#define REFUSE(noun, getter, needed)                                                               \
+    CHECK_ERROR(fpt_##noun##_##getter(NULL, needed, out), FPT_NULL_ARGUMENT, #noun);               \
+    CHECK_ERROR(fpt_##noun##_##getter(noun, needed, NULL), FPT_NULL_ARGUMENT, "out");              \
+    CHECK_ERROR(fpt_##noun##_##getter(noun, (needed) - 1, out), FPT_INVALID_ARGUMENT, "capacity"); \
+    CHECK_ERROR(fpt_##noun##_##getter(noun, 0, out), FPT_INVALID_ARGUMENT, "capacity")
+    REFUSE(curve, knots, 11);
+    REFUSE(curve, poles, 21);
+    REFUSE(curve, weights, 7);
+    REFUSE(surface, knots_u, 11);
+    REFUSE(surface, knots_v, 8);
+    REFUSE(surface, poles, 84);
+    REFUSE(surface, weights, 28);
+#undef REFUSE
+    CHECK(is_pattern(&size, sizeof size));
+    CHECK(is_pattern(number, sizeof number));
+    CHECK(is_pattern(out, sizeof out));
+}
+
 static void null_arguments_of_evaluation_are_named(void) {
     double out[4];
     const double middle[2] = {0.5, 0.5};
@@ -234,6 +280,7 @@ int main(void) {
     RUN(evaluation_refuses_what_is_outside);
     RUN(evaluation_refuses_too_many_derivatives);
     RUN(null_arguments_of_evaluation_are_named);
+    RUN(getters_refuse_null_and_too_little_room);
     fpt_curve_free(curve);
     fpt_surface_free(surface);
     return check_report("misuse_queries");
