@@ -3,6 +3,7 @@
 
 #include "samples.h"
 
+#include <cstring>
 #include <string>
 #include <type_traits>
 #include <utility>
