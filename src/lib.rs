@@ -3,12 +3,22 @@
 //! Every global answer carries a proven lower bound of the distance, or says that it is not proven.
 //! Reading order = module order: a file uses only the files listed before it.
 
-pub mod batch;
-pub mod closest;
-pub mod curve;
 pub mod error;
-mod ffi;
-pub mod index;
+
 pub mod knots;
-pub mod refine;
+
+pub mod basis;
+
+pub mod curve;
+
 pub mod surface;
+
+pub mod index;
+
+pub mod refine;
+
+pub mod closest;
+
+pub mod batch;
+
+mod ffi;

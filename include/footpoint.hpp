@@ -1,0 +1,363 @@
+/*
+ * footpoint for C++17: owners, vectors and exceptions around footpoint.h, and nothing else.
+ * SPDX-License-Identifier: MIT OR Apache-2.0
+ *
+ * Every rule of footpoint.h holds here too: units, threads, lengths and order of the numbers. What differs:
+ *   - a curve and a surface are released by their destructor; they move and do not copy;
+ *   - a status that is not FPT_OK is thrown as footpoint::error, with the text of fpt_last_error();
+ *   - array arguments are vectors of doubles whose lengths are checked before the call.
+ * Moved-from objects may be assigned to and destroyed; anything else throws FPT_NULL_ARGUMENT.
+ * Callbacks in options must not throw.
+ *
+ *     footpoint::surface blade(3, 3, knots_u, knots_v, poles, weights);
+ *     for (const fpt_foot_point &foot : blade.closest(points)) use(foot.u, foot.v, foot.distance);
+ */
+#ifndef FOOTPOINT_HPP
+#define FOOTPOINT_HPP
+
+#include "footpoint.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace footpoint {
+
+/** A call that failed. what() names the parameter and the index. */
+class error : public std::runtime_error {
+public:
+    error(fpt_status status, const std::string &text) : std::runtime_error(text), status_(status) {}
+
+    /** The status, never FPT_OK. */
+    fpt_status status() const noexcept { return status_; }
+    /** Its name, for example "FPT_INVALID_ARGUMENT". */
+    const char *status_name() const noexcept { return fpt_status_name(status_); }
+
+private:
+    fpt_status status_;
+};
+
+/** Throws unless the status is FPT_OK. */
+inline void check(fpt_status status) {
+    if (status != FPT_OK) throw error(status, fpt_last_error());
+}
+
+/** Version of the library in use, as fpt_version(). */
+inline std::uint32_t version() noexcept { return fpt_version(); }
+/** Binary interface of the library in use, as fpt_abi_version(). */
+inline std::uint32_t abi_version() noexcept { return fpt_abi_version(); }
+
+/** fpt_query_options that begin as the defaults. */
+struct query_options : fpt_query_options {
+    query_options() noexcept : fpt_query_options() {
+        fpt_query_options_init(this, sizeof(fpt_query_options));
+    }
+};
+
+/** What the classes below share; not for callers. */
+namespace detail {
+
+inline void require(bool holds, const char *text) {
+    if (!holds) throw error(FPT_INVALID_ARGUMENT, text);
+}
+
+/** Poles that a knot vector of this length belongs to. */
+inline std::size_t pole_count(const std::vector<double> &knots, std::size_t degree, const char *text) {
+    require(knots.size() > degree && knots.size() - degree > 1, text);
+    return knots.size() - degree - 1;
+}
+
+inline const double *weights(const std::vector<double> &weights, std::size_t pole_count) {
+    require(weights.empty() || weights.size() == pole_count, "weights: need one per pole, or none");
+    return weights.empty() ? nullptr : weights.data();
+}
+
+/** Query points in a vector that is packed or has the stride of the options. */
+inline std::size_t point_count(const std::vector<double> &points, const fpt_query_options &options) {
+    const std::size_t stride = options.point_stride == 0 ? 3 * sizeof(double) : options.point_stride;
+    const std::size_t bytes = points.size() * sizeof(double);
+    require(bytes % stride == 0, "points: the length is not a multiple of the stride of one point");
+    return bytes / stride;
+}
+
+template <class Shape, class Value>
+Value value(fpt_status (*get)(const Shape *, Value *), const Shape *shape) {
+    Value out{};
+    check(get(shape, &out));
+    return out;
+}
+
+template <std::size_t N, class Shape, class Number>
+std::array<Number, N> array(fpt_status (*get)(const Shape *, Number *), const Shape *shape) {
+    std::array<Number, N> out{};
+    check(get(shape, out.data()));
+    return out;
+}
+
+template <class Shape>
+std::vector<double> vector(fpt_status (*get)(const Shape *, std::size_t, double *), const Shape *shape,
+                           std::size_t size) {
+    std::vector<double> out(size);
+    check(get(shape, out.size(), out.data()));
+    return out;
+}
+
+template <class Shape>
+using query = fpt_status (*)(const Shape *, const double *, std::size_t, const fpt_query_options *,
+                             fpt_foot_point *);
+
+template <class Shape>
+std::vector<fpt_foot_point> feet(query<Shape> ask, const Shape *shape, const std::vector<double> &points,
+                                 const fpt_query_options &options) {
+    std::vector<fpt_foot_point> out(point_count(points, options));
+    check(ask(shape, points.data(), out.size(), &options, out.data()));
+    return out;
+}
+
+} // namespace detail
+
+/** A curve: owner of an fpt_curve. */
+class curve {
+public:
+    /** As fpt_curve_new. */
+    explicit curve(const fpt_curve_data &data) : handle_(make(data)) {}
+
+    /** The pole count follows from the knots; poles hold x,y,z each; no weights: polynomial. */
+    curve(std::size_t degree, const std::vector<double> &knots, const std::vector<double> &poles,
+          const std::vector<double> &weights = {})
+        : handle_(make(degree, knots, poles, weights)) {}
+
+    /** Takes a handle over. */
+    explicit curve(fpt_curve *handle) noexcept : handle_(handle) {}
+
+    /** The handle, still owned here. */
+    const fpt_curve *get() const noexcept { return handle_.get(); }
+    /** The handle, owned by the caller from now on. */
+    fpt_curve *release() noexcept { return handle_.release(); }
+
+    std::size_t degree() const { return detail::value(fpt_curve_degree, get()); }
+    std::size_t pole_count() const { return detail::value(fpt_curve_pole_count, get()); }
+    std::vector<double> knots() const {
+        return detail::vector(fpt_curve_knots, get(), pole_count() + degree() + 1);
+    }
+    std::vector<double> poles() const { return detail::vector(fpt_curve_poles, get(), 3 * pole_count()); }
+    /** All 1 for a polynomial curve. */
+    std::vector<double> weights() const { return detail::vector(fpt_curve_weights, get(), pole_count()); }
+    /** Start and end of u. */
+    std::array<double, 2> domain() const { return detail::array<2>(fpt_curve_domain, get()); }
+    /** Least x,y,z, then greatest x,y,z. */
+    std::array<double, 6> box() const { return detail::array<6>(fpt_curve_box, get()); }
+    bool is_rational() const { return detail::value(fpt_curve_is_rational, get()) != 0; }
+    bool is_closed() const { return detail::value(fpt_curve_is_closed, get()) != 0; }
+
+    /** C, C', C'', ... up to `derivatives`, x,y,z each. */
+    std::vector<double> evaluate(double u, std::uint32_t derivatives = 0) const {
+        std::vector<double> out(values(derivatives));
+        check(fpt_curve_evaluate(get(), u, derivatives, out.data()));
+        return out;
+    }
+
+    /** The values of evaluate for each parameter, one after the other. */
+    std::vector<double> evaluate_many(const std::vector<double> &parameters,
+                                      std::uint32_t derivatives = 0) const {
+        std::vector<double> out(parameters.size() * values(derivatives));
+        check(fpt_curve_evaluate_many(get(), parameters.data(), parameters.size(), derivatives, out.data()));
+        return out;
+    }
+
+    /** Builds the search index now. */
+    void prepare() const { check(fpt_curve_prepare(get())); }
+
+    /** One record per query point, x,y,z each. */
+    std::vector<fpt_foot_point> closest(const std::vector<double> &points,
+                                        const fpt_query_options &options = query_options()) const {
+        return detail::feet<fpt_curve>(fpt_curve_closest, get(), points, options);
+    }
+    /** As fpt_curve_closest: the records stay with the caller, also when FPT_CANCELLED is thrown. */
+    void closest(const double *points, std::size_t count, const fpt_query_options *options,
+                 fpt_foot_point *out) const {
+        check(fpt_curve_closest(get(), points, count, options, out));
+    }
+    /** One record per query point, x,y,z each. */
+    std::vector<fpt_foot_point> invert(const std::vector<double> &points,
+                                       const fpt_query_options &options = query_options()) const {
+        return detail::feet<fpt_curve>(fpt_curve_invert, get(), points, options);
+    }
+    /** As fpt_curve_invert: the records stay with the caller, also when FPT_CANCELLED is thrown. */
+    void invert(const double *points, std::size_t count, const fpt_query_options *options,
+                fpt_foot_point *out) const {
+        check(fpt_curve_invert(get(), points, count, options, out));
+    }
+
+private:
+    struct deleter {
+        void operator()(fpt_curve *handle) const noexcept { fpt_curve_free(handle); }
+    };
+
+    /** Numbers in one evaluation; an order that the library refuses is left to it. */
+    static std::size_t values(std::uint32_t derivatives) {
+        return derivatives > 31 ? 0 : 3 * (std::size_t(derivatives) + 1);
+    }
+
+    static fpt_curve *make(const fpt_curve_data &data) {
+        fpt_curve *out = nullptr;
+        check(fpt_curve_new(&data, &out));
+        return out;
+    }
+
+    static fpt_curve *make(std::size_t degree, const std::vector<double> &knots,
+                           const std::vector<double> &poles, const std::vector<double> &weights) {
+        fpt_curve_data data{};
+        data.struct_size = sizeof data;
+        data.degree = degree;
+        data.pole_count = detail::pole_count(knots, degree, "knots: too few for the degree");
+        detail::require(poles.size() % 3 == 0 && poles.size() / 3 == data.pole_count,
+                        "poles: need x,y,z for each of knots - degree - 1 poles");
+        data.knots = knots.data();
+        data.poles = poles.data();
+        data.weights = detail::weights(weights, data.pole_count);
+        return make(data);
+    }
+
+    std::unique_ptr<fpt_curve, deleter> handle_;
+};
+
+/** A surface: owner of an fpt_surface. */
+class surface {
+public:
+    /** As fpt_surface_new. */
+    explicit surface(const fpt_surface_data &data) : handle_(make(data)) {}
+
+    /** The pole counts follow from the knots; pole (i,j) is number i*pole_count_v + j, x,y,z each; no
+     *  weights: polynomial. */
+    surface(std::size_t degree_u, std::size_t degree_v, const std::vector<double> &knots_u,
+            const std::vector<double> &knots_v, const std::vector<double> &poles,
+            const std::vector<double> &weights = {})
+        : handle_(make(degree_u, degree_v, knots_u, knots_v, poles, weights)) {}
+
+    /** Takes a handle over. */
+    explicit surface(fpt_surface *handle) noexcept : handle_(handle) {}
+
+    /** The handle, still owned here. */
+    const fpt_surface *get() const noexcept { return handle_.get(); }
+    /** The handle, owned by the caller from now on. */
+    fpt_surface *release() noexcept { return handle_.release(); }
+
+    std::size_t degree_u() const { return detail::value(fpt_surface_degree_u, get()); }
+    std::size_t degree_v() const { return detail::value(fpt_surface_degree_v, get()); }
+    std::size_t pole_count_u() const { return detail::value(fpt_surface_pole_count_u, get()); }
+    std::size_t pole_count_v() const { return detail::value(fpt_surface_pole_count_v, get()); }
+    std::vector<double> knots_u() const {
+        return detail::vector(fpt_surface_knots_u, get(), pole_count_u() + degree_u() + 1);
+    }
+    std::vector<double> knots_v() const {
+        return detail::vector(fpt_surface_knots_v, get(), pole_count_v() + degree_v() + 1);
+    }
+    std::vector<double> poles() const {
+        return detail::vector(fpt_surface_poles, get(), 3 * pole_count_u() * pole_count_v());
+    }
+    /** All 1 for a polynomial surface. */
+    std::vector<double> weights() const {
+        return detail::vector(fpt_surface_weights, get(), pole_count_u() * pole_count_v());
+    }
+    /** Start and end of u, start and end of v. */
+    std::array<double, 4> domain() const { return detail::array<4>(fpt_surface_domain, get()); }
+    /** Least x,y,z, then greatest x,y,z. */
+    std::array<double, 6> box() const { return detail::array<6>(fpt_surface_box, get()); }
+    bool is_rational() const { return detail::value(fpt_surface_is_rational, get()) != 0; }
+    bool is_closed_u() const { return detail::value(fpt_surface_is_closed_u, get()) != 0; }
+    bool is_closed_v() const { return detail::value(fpt_surface_is_closed_v, get()) != 0; }
+    /** Edges that are a point: start of u, end of u, start of v, end of v. */
+    std::array<bool, 4> collapsed_edges() const {
+        const auto edges = detail::array<4>(fpt_surface_collapsed_edges, get());
+        return {edges[0] != 0, edges[1] != 0, edges[2] != 0, edges[3] != 0};
+    }
+
+    /** S; Su,Sv; Suu,Suv,Svv; ... up to the total order `derivatives`, x,y,z each. */
+    std::vector<double> evaluate(double u, double v, std::uint32_t derivatives = 0) const {
+        std::vector<double> out(values(derivatives));
+        check(fpt_surface_evaluate(get(), u, v, derivatives, out.data()));
+        return out;
+    }
+
+    /** The values of evaluate for each pair u,v of `parameters`, one after the other. */
+    std::vector<double> evaluate_many(const std::vector<double> &parameters,
+                                      std::uint32_t derivatives = 0) const {
+        detail::require(parameters.size() % 2 == 0, "parameters: need pairs u,v");
+        const std::size_t count = parameters.size() / 2;
+        std::vector<double> out(count * values(derivatives));
+        check(fpt_surface_evaluate_many(get(), parameters.data(), count, derivatives, out.data()));
+        return out;
+    }
+
+    /** Builds the search index now. */
+    void prepare() const { check(fpt_surface_prepare(get())); }
+
+    /** One record per query point, x,y,z each. */
+    std::vector<fpt_foot_point> closest(const std::vector<double> &points,
+                                        const fpt_query_options &options = query_options()) const {
+        return detail::feet<fpt_surface>(fpt_surface_closest, get(), points, options);
+    }
+    /** As fpt_surface_closest: the records stay with the caller, also when FPT_CANCELLED is thrown. */
+    void closest(const double *points, std::size_t count, const fpt_query_options *options,
+                 fpt_foot_point *out) const {
+        check(fpt_surface_closest(get(), points, count, options, out));
+    }
+    /** One record per query point, x,y,z each. */
+    std::vector<fpt_foot_point> invert(const std::vector<double> &points,
+                                       const fpt_query_options &options = query_options()) const {
+        return detail::feet<fpt_surface>(fpt_surface_invert, get(), points, options);
+    }
+    /** As fpt_surface_invert: the records stay with the caller, also when FPT_CANCELLED is thrown. */
+    void invert(const double *points, std::size_t count, const fpt_query_options *options,
+                fpt_foot_point *out) const {
+        check(fpt_surface_invert(get(), points, count, options, out));
+    }
+
+private:
+    struct deleter {
+        void operator()(fpt_surface *handle) const noexcept { fpt_surface_free(handle); }
+    };
+
+    /** Numbers in one evaluation; an order that the library refuses is left to it. */
+    static std::size_t values(std::uint32_t derivatives) {
+        const std::size_t order = derivatives;
+        return order > 31 ? 0 : 3 * (order + 1) * (order + 2) / 2;
+    }
+
+    static fpt_surface *make(const fpt_surface_data &data) {
+        fpt_surface *out = nullptr;
+        check(fpt_surface_new(&data, &out));
+        return out;
+    }
+
+    static fpt_surface *make(std::size_t degree_u, std::size_t degree_v, const std::vector<double> &knots_u,
+                             const std::vector<double> &knots_v, const std::vector<double> &poles,
+                             const std::vector<double> &weights) {
+        fpt_surface_data data{};
+        data.struct_size = sizeof data;
+        data.degree_u = degree_u;
+        data.degree_v = degree_v;
+        data.pole_count_u = detail::pole_count(knots_u, degree_u, "knots_u: too few for the degree");
+        data.pole_count_v = detail::pole_count(knots_v, degree_v, "knots_v: too few for the degree");
+        const std::size_t count = poles.size() / 3;
+        detail::require(poles.size() % 3 == 0 && count % data.pole_count_v == 0
+                            && count / data.pole_count_v == data.pole_count_u,
+                        "poles: need x,y,z for each of (knots_u - degree_u - 1) x (knots_v - degree_v - 1)");
+        data.knots_u = knots_u.data();
+        data.knots_v = knots_v.data();
+        data.poles = poles.data();
+        data.weights = detail::weights(weights, count);
+        return make(data);
+    }
+
+    std::unique_ptr<fpt_surface, deleter> handle_;
+};
+
+} // namespace footpoint
+
+#endif
