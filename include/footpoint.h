@@ -16,8 +16,8 @@
  *           are packed and aligned for their element (8 bytes for double), query points and hints need
  *           no alignment. An array of no elements may be NULL. Outputs must not overlap inputs.
  *           FPT_INVALID_ARGUMENT is returned for counts whose product overflows.
- * Numbers   NaN and infinity are refused in every array but query points (the record is marked) and
- *           hints (NaN: no hint).
+ * Numbers   NaN, infinity and (for knots, poles and weights) anything beyond 1e100 are refused in every
+ *           array but query points (the record is marked) and hints (NaN: no hint).
  * Ownership Inputs are copied. Handles belong to the caller and are released by the matching _free, in
  *           any order; _free(NULL) does nothing.
  * Threads   Handles never change after _new. A function that takes a handle as const may run on any
@@ -301,17 +301,17 @@ typedef struct fpt_curve_data {
      */
     size_t pole_count;
     /**
-     * pole_count + degree + 1 numbers, finite, not decreasing, repeats written out, no interior knot
-     * more than degree times. Periodic curves come unrolled: the domain is knots[degree] to
-     * knots[pole_count].
+     * pole_count + degree + 1 numbers, not decreasing, repeats written out, no interior knot more than
+     * degree times. Periodic curves come unrolled: the domain is `knots[degree]` to
+     * `knots[pole_count]`.
      */
     const double *knots;
     /**
-     * x,y,z of pole i at 3*i, finite; plane curves have z = 0. Not multiplied by the weights.
+     * x,y,z of pole i at 3*i; plane curves have z = 0. Not multiplied by the weights.
      */
     const double *poles;
     /**
-     * One per pole, finite, > 0; NULL: polynomial.
+     * One per pole, 1e-100 to 1e100; NULL: polynomial.
      */
     const double *weights;
 } fpt_curve_data;
@@ -341,9 +341,9 @@ typedef struct fpt_surface_data {
      */
     size_t pole_count_v;
     /**
-     * pole_count_u + degree_u + 1 numbers, finite, not decreasing, repeats written out, no interior knot
-     * more than degree_u times. Periodic surfaces come unrolled: the domain is knots_u[degree_u] to
-     * knots_u[pole_count_u].
+     * pole_count_u + degree_u + 1 numbers, not decreasing, repeats written out, no interior knot more
+     * than degree_u times. Periodic surfaces come unrolled: the domain is `knots_u[degree_u]` to
+     * `knots_u[pole_count_u]`.
      */
     const double *knots_u;
     /**
@@ -351,11 +351,11 @@ typedef struct fpt_surface_data {
      */
     const double *knots_v;
     /**
-     * x,y,z of pole (i,j) at 3*(i*pole_count_v + j), finite. Not multiplied by the weights.
+     * x,y,z of pole (i,j) at 3*(i*pole_count_v + j). Not multiplied by the weights.
      */
     const double *poles;
     /**
-     * Of pole (i,j) at i*pole_count_v + j, finite, > 0; NULL: polynomial.
+     * Of pole (i,j) at i*pole_count_v + j, 1e-100 to 1e100; NULL: polynomial.
      */
     const double *weights;
 } fpt_surface_data;
@@ -548,7 +548,7 @@ fpt_status fpt_curve_weights(const struct fpt_curve *curve,
                              double *out_weights);
 
 /**
- * The box of the poles that act on the domain; the curve lies in it. Its diagonal is what the default
+ * The box of the poles that act on the domain, in which the curve lies. Its diagonal is what the default
  * tolerance and accuracy are relative to.
  *
  * @param out_box  6 numbers: least x,y,z, then greatest x,y,z
@@ -559,7 +559,7 @@ fpt_status fpt_curve_box(const struct fpt_curve *curve,
                          double *out_box);
 
 /**
- * Whether the curve came with weights: 1 or 0.
+ * Whether the curve has weights that differ: 1 or 0.
  * @since 0.1
  */
 FPT_MUST_USE
@@ -728,7 +728,7 @@ fpt_status fpt_surface_weights(const struct fpt_surface *surface,
                                double *out_weights);
 
 /**
- * The box of the poles that act on the domain; the surface lies in it. Its diagonal is what the default
+ * The box of the poles that act on the domain, in which the surface lies. Its diagonal is what the default
  * tolerance and accuracy are relative to.
  *
  * @param out_box  6 numbers: least x,y,z, then greatest x,y,z
@@ -739,7 +739,7 @@ fpt_status fpt_surface_box(const struct fpt_surface *surface,
                            double *out_box);
 
 /**
- * Whether the surface came with weights: 1 or 0.
+ * Whether the surface has weights that differ: 1 or 0.
  * @since 0.1
  */
 FPT_MUST_USE

@@ -1,37 +1,82 @@
-//! Stub of the agreed interface.
-#![allow(missing_docs)]
-use crate::error::Error;
-use crate::index::{IndexedCurve, IndexedSurface};
-use crate::refine::Method;
+//! The nearest point of a shape, with a proof.
+//!
+//! ```text
+//!   query -> tree, nearest box first -> piece -> boxes of the piece (see `line`, `patch`)
+//!         -> foot = best place found, bound = what the walk has proven for everything else
+//! ```
+//!
+//! Every answer carries `lower_bound`: nothing on the shape is nearer to the query than that, rounding included
+//! (`docs/rounding.md`). The gap `distance - lower_bound` is at most the accuracy asked for or the rounding floor
+//! of the shape and query ([`rounding_floor`]), or the flag [`flag::NOT_PROVEN`] is set.
+//!
+//! References: Johnson, Cohen, *A framework for efficient minimum distance computations*, 1998 (walk and prune);
+//! Mourrain, Pavone, *Subdivision methods for solving polynomial equations*, 2009 (Bernstein tests).
+//! Limits: a query whose foot is degenerate along a whole curve without being exactly constant may exhaust the
+//! budget; it is then marked, never guessed.
 
+mod curve;
+mod line;
+mod local;
+mod patch;
+mod proof;
+mod surface;
+
+use crate::bounds::{HALF_ULP, Vector, norm, sub};
+use crate::index::Frame;
+use crate::refine::Method;
+use crate::tree::Queue;
+use proof::Proof;
+
+/// Bits of [`FootPoint::flags`].
 pub mod flag {
+    /// `distance - lower_bound` exceeds both the accuracy and the rounding floor.
     pub const NOT_PROVEN: u32 = 1;
+    /// One parameter equals an end of the domain, bit for bit.
     pub const EDGE: u32 = 2;
+    /// Both parameters do.
     pub const CORNER: u32 = 4;
+    /// The foot lies on the seam of a closed direction; the other end of the domain gives the same point.
     pub const SEAM: u32 = 8;
+    /// The foot lies on a collapsed edge: a whole parameter interval maps to it.
     pub const COLLAPSED: u32 = 16;
+    /// Another foot lies within the accuracy of the least distance.
     pub const TIE: u32 = 32;
+    /// The feet form a continuum.
     pub const CONTINUUM: u32 = 64;
+    /// Inversion: proven farther than the tolerance.
     pub const NOT_ON_SHAPE: u32 = 128;
+    /// The query point is not finite or beyond 1e100.
     pub const BAD_QUERY: u32 = 256;
+    /// The answer started from the caller's hint.
     pub const HINT_USED: u32 = 512;
+    /// The budget ran out.
     pub const BUDGET: u32 = 1024;
+    /// The foot lies on a tangent break.
     pub const CREASE: u32 = 2048;
 }
 
+/// A foot point and its certificate. 64 bits a field but the last two; the layout is frozen (C API).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FootPoint {
+    /// First parameter, in the domain.
     pub u: f64,
+    /// Second parameter, in the domain; 0 for curves.
     pub v: f64,
-    pub point: [f64; 3],
+    /// The shape at (u, v), the bits that its evaluation gives.
+    pub point: Vector,
+    /// |query - point|.
     pub distance: f64,
+    /// Nothing on the shape is nearer to the query than this; 0 for local scope.
     pub lower_bound: f64,
+    /// Bits of [`flag`].
     pub flags: u32,
+    /// Evaluations of the shape spent.
     pub iterations: u32,
 }
 
 impl FootPoint {
+    /// The record of a query that was not reached.
     pub fn unreached() -> Self {
         let nan = f64::NAN;
         Self {
@@ -44,97 +89,127 @@ impl FootPoint {
             iterations: 0,
         }
     }
+
+    /// The record of a query point that is not finite or too large.
+    pub fn bad_query() -> Self {
+        Self { flags: flag::BAD_QUERY | flag::NOT_PROVEN, ..Self::unreached() }
+    }
 }
 
+/// Greatest absolute coordinate of a query.
+pub const GREATEST_COORDINATE: f64 = 1e100;
+
+/// How far an answer must hold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scope {
+    /// The whole shape (or the restriction), with proof.
     #[default]
     Global,
+    /// The iteration from the hint, or from the published start; without proof.
     Local,
 }
 
-#[derive(Clone, Copy, Debug, Default)]
+/// What a query asks for. The default is what most callers want.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct QueryOptions {
+    /// Inversion: farther points are not on the shape. 0: 1e-7 of the box diagonal.
     pub tolerance: f64,
+    /// Asked-for `distance - lower_bound`. 0: 1e-10 of the box diagonal.
     pub accuracy: f64,
+    /// Local iteration.
     pub method: Method,
+    /// Global with proof, or local.
     pub scope: Scope,
+    /// Restriction to u0, u1, v0, v1; curves use the first two.
     pub domain: Option<[f64; 4]>,
+    /// Most boxes per query; 0: [`default_budget`].
     pub budget: u64,
 }
 
-#[derive(Debug, Default)]
-pub struct Workspace;
-pub type Trace<'a> = &'a mut dyn FnMut(u32, f64, f64, f64);
+pub use crate::refine::Trace;
 
-fn answer(query: [f64; 3], u: f64, v: f64, trace: Option<Trace<'_>>) -> FootPoint {
-    if let Some(trace) = trace {
-        trace(0, u, v, 1.0);
-    }
-    let mut foot = FootPoint::unreached();
-    (foot.u, foot.v, foot.point, foot.distance, foot.flags) = (u, v, query, 0.0, 0);
-    foot
+/// Reusable memory of one thread. No query allocates once it has grown to the shape's degree.
+#[derive(Clone, Debug, Default)]
+pub struct Workspace {
+    queue: Queue,
+    line: line::LineMemory,
+    patch: patch::PatchMemory,
 }
 
-impl IndexedCurve {
-    pub fn check_domain(&self, d: [f64; 4]) -> Result<(), Error> {
-        let (a, b) = self.curve().domain();
-        if a <= d[0] && d[0] < d[1] && d[1] <= b {
-            return Ok(());
-        }
-        Err(Error::InvalidArgument("domain: not inside the curve's".into()))
+/// Boxes a query may look at by default: 20,000 for small pieces, fewer where a box costs more.
+/// `coefficients` is the number of product coefficients of a piece: (2p+1) for curves, (2p+1)(2q+1) for surfaces.
+pub fn default_budget(coefficients: usize) -> u64 {
+    (600_000 / coefficients as u64).clamp(200, 20_000)
+}
+
+/// The gap that rounding leaves at least, in the caller's lengths: 64 half ulps of the coordinates that meet
+/// (shape, query, distance), and the piece's own rounding twice.
+pub fn rounding_floor(frame: &Frame, query: Vector, position: f64) -> f64 {
+    let largest = query.iter().fold(frame.magnitude, |m, x| m.max(x.abs()));
+    16.0 * HALF_ULP * largest + 4.0 * position / frame.scale
+}
+
+fn is_bad(query: Vector) -> bool {
+    query.iter().any(|x| !x.is_finite() || x.abs() > GREATEST_COORDINATE)
+}
+
+impl QueryOptions {
+    fn tolerance(&self, frame: &Frame) -> f64 {
+        if self.tolerance > 0.0 { self.tolerance } else { 1e-7 * frame.diagonal }
     }
-    pub fn closest(
-        &self,
-        query: [f64; 3],
-        hint: Option<f64>,
-        _: &QueryOptions,
-        _: &mut Workspace,
-        trace: Option<Trace<'_>>,
-    ) -> FootPoint {
-        answer(query, hint.unwrap_or(self.curve().domain().0), 0.0, trace)
-    }
-    pub fn invert(
-        &self,
-        query: [f64; 3],
-        hint: Option<f64>,
-        options: &QueryOptions,
-        workspace: &mut Workspace,
-        trace: Option<Trace<'_>>,
-    ) -> FootPoint {
-        self.closest(query, hint, options, workspace, trace)
+
+    fn accuracy(&self, frame: &Frame) -> f64 {
+        if self.accuracy > 0.0 { self.accuracy } else { 1e-10 * frame.diagonal }
     }
 }
 
-impl IndexedSurface {
-    pub fn check_domain(&self, d: [f64; 4]) -> Result<(), Error> {
-        let all = self.surface().domain();
-        let inside = |i: usize| all[i] <= d[i] && d[i] < d[i + 1] && d[i + 1] <= all[i + 1];
-        if inside(0) && inside(2) {
-            return Ok(());
+/// What every global answer ends with: the bound in the caller's lengths and the flags of the certificate.
+fn certify(foot: &mut FootPoint, proof: &Proof, frame: &Frame, allowed: f64) {
+    let bound = proof.proven() / frame.scale;
+    foot.lower_bound = if bound > 0.0 { bound.min(foot.distance) } else { 0.0 };
+    foot.iterations = proof.evaluations;
+    if proof.exhausted {
+        foot.flags |= flag::BUDGET;
+    }
+    let gap = foot.distance - foot.lower_bound;
+    if gap.is_nan() || gap > allowed {
+        foot.flags |= flag::NOT_PROVEN;
+    }
+}
+
+/// The further flag of an inversion.
+fn mark_inversion(foot: &mut FootPoint, tolerance: f64) {
+    if foot.lower_bound > tolerance {
+        foot.flags |= flag::NOT_ON_SHAPE;
+    } else if foot.distance > tolerance {
+        foot.flags |= flag::NOT_PROVEN;
+    }
+}
+
+fn distance(query: Vector, point: Vector) -> f64 {
+    norm(sub(query, point))
+}
+
+/// Checks one interval of a restriction against the domain.
+fn check_range(
+    name: &str,
+    first: usize,
+    range: [f64; 2],
+    domain: (f64, f64),
+) -> Result<(), crate::error::Error> {
+    let refuse = |text: String| Err(crate::error::Error::InvalidArgument(text));
+    for (k, x) in range.into_iter().enumerate() {
+        if x.is_nan() || x < domain.0 || x > domain.1 {
+            return refuse(format!(
+                "{name}: entry {} = {x} is outside [{}, {}]",
+                first + k,
+                domain.0,
+                domain.1
+            ));
         }
-        Err(Error::InvalidArgument("domain: not inside the surface's".into()))
     }
-    pub fn closest(
-        &self,
-        query: [f64; 3],
-        hint: Option<[f64; 2]>,
-        _: &QueryOptions,
-        _: &mut Workspace,
-        trace: Option<Trace<'_>>,
-    ) -> FootPoint {
-        let all = self.surface().domain();
-        let [u, v] = hint.unwrap_or([all[0], all[2]]);
-        answer(query, u, v, trace)
+    if range[0] >= range[1] {
+        return refuse(format!("{name}: entry {first} is not less than entry {}", first + 1));
     }
-    pub fn invert(
-        &self,
-        query: [f64; 3],
-        hint: Option<[f64; 2]>,
-        options: &QueryOptions,
-        workspace: &mut Workspace,
-        trace: Option<Trace<'_>>,
-    ) -> FootPoint {
-        self.closest(query, hint, options, workspace, trace)
-    }
+    Ok(())
 }

@@ -18,13 +18,13 @@
 #![allow(unsafe_code, reason = "a C boundary reads and writes through the caller's pointers")]
 #![allow(non_camel_case_types, reason = "the names are C's, and cbindgen takes them as they are")]
 
-mod curve;
-mod limits;
 mod memory;
+mod limits;
 mod options;
-mod query;
 mod records;
+mod curve;
 mod surface;
+mod query;
 #[cfg(test)]
 mod tests;
 

@@ -1,34 +1,26 @@
-//! Stub of the agreed interface.
-#![allow(missing_docs)]
-use crate::curve::Curve;
-use crate::error::Error;
-use crate::surface::Surface;
+//! The search index: Bezier pieces with their distance tensors under a bounding-volume tree.
+//!
+//! A shape is scaled by a power of two to a box diagonal in [1, 2) and recentred (both exact but for one
+//! rounding per coordinate); each piece is recentred again on one of its own poles. For a query `p` in a
+//! piece's frame
+//!
+//! ```text
+//!   r = X - W p      N = |r|^2 = A - 2 p.B + |p|^2 C      C = W^2      distance^2 = N / C
+//! ```
+//!
+//! and the Bernstein coefficients of A, B, C ("tensors", twice the degree) are stored, so that those of N are
+//! one small matrix-vector product. Reference: Johnson, Cohen, *Distance extrema for spline models using tangent
+//! cones*, 2005, for the squared-distance form; the layout is ours.
+//!
+//! Built once, on first use or by `prepare`; immutable afterwards and shared by threads without locks.
 
-#[derive(Debug)]
-pub struct IndexedCurve(Curve);
-#[derive(Debug)]
-pub struct IndexedSurface(Surface);
+mod patches;
+mod piece;
+mod segments;
+mod shape;
 
-impl IndexedCurve {
-    pub fn new(curve: Curve) -> Self {
-        Self(curve)
-    }
-    pub fn curve(&self) -> &Curve {
-        &self.0
-    }
-    pub fn prepare(&self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error> {
-        if poll() { Err(Error::Cancelled) } else { Ok(()) }
-    }
-}
+pub use piece::{Frame, MAX_TENSOR_BYTES, position_error, position_steps, product_steps};
+pub use segments::{CurveIndex, Segment};
+pub use shape::{IndexedCurve, IndexedSurface};
 
-impl IndexedSurface {
-    pub fn new(surface: Surface) -> Self {
-        Self(surface)
-    }
-    pub fn surface(&self) -> &Surface {
-        &self.0
-    }
-    pub fn prepare(&self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error> {
-        if poll() { Err(Error::Cancelled) } else { Ok(()) }
-    }
-}
+pub use patches::{Patch, SurfaceIndex, side};

@@ -13,6 +13,14 @@ pub mod curve;
 
 pub mod surface;
 
+pub mod bezier;
+
+pub mod bounds;
+
+pub mod jet;
+
+pub mod tree;
+
 pub mod index;
 
 pub mod refine;

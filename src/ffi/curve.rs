@@ -28,13 +28,13 @@ pub struct fpt_curve_data {
     pub degree: usize,
     /// At least degree + 1.
     pub pole_count: usize,
-    /// pole_count + degree + 1 numbers, finite, not decreasing, repeats written out, no interior knot
-    /// more than degree times. Periodic curves come unrolled: the domain is knots[degree] to
-    /// knots[pole_count].
+    /// pole_count + degree + 1 numbers, not decreasing, repeats written out, no interior knot more than
+    /// degree times. Periodic curves come unrolled: the domain is `knots[degree]` to
+    /// `knots[pole_count]`.
     pub knots: *const f64,
-    /// x,y,z of pole i at 3*i, finite; plane curves have z = 0. Not multiplied by the weights.
+    /// x,y,z of pole i at 3*i; plane curves have z = 0. Not multiplied by the weights.
     pub poles: *const f64,
-    /// One per pole, finite, > 0; NULL: polynomial.
+    /// One per pole, 1e-100 to 1e100; NULL: polynomial.
     pub weights: *const f64,
 }
 
@@ -277,7 +277,7 @@ pub unsafe extern "C" fn fpt_curve_weights(
     })
 }
 
-/// The box of the poles that act on the domain; the curve lies in it. Its diagonal is what the default
+/// The box of the poles that act on the domain, in which the curve lies. Its diagonal is what the default
 /// tolerance and accuracy are relative to.
 ///
 /// @param out_box  6 numbers: least x,y,z, then greatest x,y,z
@@ -292,7 +292,7 @@ pub unsafe extern "C" fn fpt_curve_box(curve: *const fpt_curve, out_box: *mut f6
     })
 }
 
-/// Whether the curve came with weights: 1 or 0.
+/// Whether the curve has weights that differ: 1 or 0.
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]

@@ -1,6 +1,7 @@
 //! Numbers that array lengths and evaluations depend on, checked before they are used.
 
 use super::Failure;
+use super::memory::check_extent;
 use crate::knots::MAX_DEGREE;
 use std::mem::size_of;
 
@@ -15,10 +16,7 @@ pub(super) fn check_degree(name: &str, degree: usize, pole_count: usize) -> Resu
         let text = format!("pole_count{side}: {pole_count} is too few for degree {degree}");
         return Err(Failure::invalid(text));
     }
-    if pole_count > isize::MAX as usize / size_of::<[f64; 3]>() {
-        return Err(Failure::invalid(format!("pole_count{side}: {pole_count} overflows")));
-    }
-    Ok(())
+    check_extent(&format!("pole_count{side}"), pole_count, size_of::<[f64; 3]>())
 }
 
 /// A highest order of derivatives, as a count.

@@ -81,10 +81,14 @@ fn check_array<T>(name: &'static str, pointer: *const T, count: usize) -> Result
     check_extent(name, count, size_of::<T>())
 }
 
-/// Refuses more bytes than an object can have: the product with a count that a caller mistook.
-fn check_extent(name: &'static str, count: usize, bytes_each: usize) -> Result<(), Failure> {
+/// More bytes than any array has: 64-bit machines address at most 2^56 bytes of a program's own memory. A
+/// count beyond that is a mistake of the caller, often a negative number, and nothing is read.
+const MAX_BYTES: usize = if usize::BITS < 64 { isize::MAX as usize } else { 1 << 56 };
+
+/// Refuses counts whose array does not fit into memory.
+pub(super) fn check_extent(name: &str, count: usize, bytes_each: usize) -> Result<(), Failure> {
     match count.checked_mul(bytes_each) {
-        Some(bytes) if isize::try_from(bytes).is_ok() => Ok(()),
+        Some(bytes) if bytes <= MAX_BYTES => Ok(()),
         _ => Err(Failure::invalid(format!("{name}: {count} elements overflow the address space"))),
     }
 }

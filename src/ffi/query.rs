@@ -304,3 +304,17 @@ impl Callbacks {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::hint;
+
+    #[test]
+    fn a_hint_is_moved_to_the_domain_and_nan_is_none() {
+        let ends = [[0.0, 1.0], [-2.0, 3.0]];
+        assert_eq!(hint([0.5, 0.5], ends), Some([0.5, 0.5]));
+        assert_eq!(hint([-9.0, 9.0], ends), Some([0.0, 3.0]));
+        assert_eq!(hint([0.5, f64::NAN], ends), None);
+        assert_eq!(hint([f64::NAN], [[0.0, 1.0]]), None);
+    }
+}

@@ -32,15 +32,15 @@ pub struct fpt_surface_data {
     pub pole_count_u: usize,
     /// At least degree_v + 1.
     pub pole_count_v: usize,
-    /// pole_count_u + degree_u + 1 numbers, finite, not decreasing, repeats written out, no interior knot
-    /// more than degree_u times. Periodic surfaces come unrolled: the domain is knots_u[degree_u] to
-    /// knots_u[pole_count_u].
+    /// pole_count_u + degree_u + 1 numbers, not decreasing, repeats written out, no interior knot more
+    /// than degree_u times. Periodic surfaces come unrolled: the domain is `knots_u[degree_u]` to
+    /// `knots_u[pole_count_u]`.
     pub knots_u: *const f64,
     /// The same in v.
     pub knots_v: *const f64,
-    /// x,y,z of pole (i,j) at 3*(i*pole_count_v + j), finite. Not multiplied by the weights.
+    /// x,y,z of pole (i,j) at 3*(i*pole_count_v + j). Not multiplied by the weights.
     pub poles: *const f64,
-    /// Of pole (i,j) at i*pole_count_v + j, finite, > 0; NULL: polynomial.
+    /// Of pole (i,j) at i*pole_count_v + j, 1e-100 to 1e100; NULL: polynomial.
     pub weights: *const f64,
 }
 
@@ -361,7 +361,7 @@ pub unsafe extern "C" fn fpt_surface_weights(
     })
 }
 
-/// The box of the poles that act on the domain; the surface lies in it. Its diagonal is what the default
+/// The box of the poles that act on the domain, in which the surface lies. Its diagonal is what the default
 /// tolerance and accuracy are relative to.
 ///
 /// @param out_box  6 numbers: least x,y,z, then greatest x,y,z
@@ -379,7 +379,7 @@ pub unsafe extern "C" fn fpt_surface_box(
     })
 }
 
-/// Whether the surface came with weights: 1 or 0.
+/// Whether the surface has weights that differ: 1 or 0.
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]

@@ -1,0 +1,308 @@
+//! Nearest point of a curve.
+
+use super::line::{Given, Line, LineMemory, search_line};
+use super::local::{LOCAL_FLAGS, WholeCurve, curve_start};
+use super::proof::{Proof, Site, Watch, squared_error};
+use super::{
+    FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, distance, flag, is_bad,
+    mark_inversion, rounding_floor,
+};
+use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, sub};
+use crate::error::Error;
+use crate::index::{CurveIndex, IndexedCurve, position_error, position_steps, product_steps};
+use crate::refine::{Trace, foot_on_curve};
+
+/// A tangent break smaller than this angle (radians) is rounding of the poles, not a crease.
+pub const LEAST_CREASE: f64 = 1e-6;
+
+impl IndexedCurve {
+    /// The nearest point of the curve to `query`, with proof.
+    ///
+    /// `hint` is a parameter near the foot, if the caller knows one; it changes the time, not the distance.
+    /// A query that is not finite gives [`FootPoint::bad_query`]. Cost: about a microsecond.
+    ///
+    /// # Panics
+    /// Never on its own; memory that cannot be had for the index gives [`FootPoint::unreached`].
+    pub fn closest(
+        &self,
+        query: Vector,
+        hint: Option<f64>,
+        options: &QueryOptions,
+        workspace: &mut Workspace,
+        trace: Option<Trace>,
+    ) -> FootPoint {
+        if is_bad(query) {
+            return FootPoint::bad_query();
+        }
+        let Ok(index) = self.index(&mut || false) else { return FootPoint::unreached() };
+        match options.scope {
+            Scope::Local => self.local(index, query, hint, options, trace),
+            Scope::Global => self.global(index, query, hint, options, workspace, trace),
+        }
+    }
+
+    /// As [`Self::closest`], for a query that should lie on the curve: beyond the tolerance the foot is marked
+    /// [`flag::NOT_ON_SHAPE`].
+    pub fn invert(
+        &self,
+        query: Vector,
+        hint: Option<f64>,
+        options: &QueryOptions,
+        workspace: &mut Workspace,
+        trace: Option<Trace>,
+    ) -> FootPoint {
+        let mut foot = self.closest(query, hint, options, workspace, trace);
+        if let (Ok(index), true) = (self.index(&mut || false), foot.distance.is_finite()) {
+            mark_inversion(&mut foot, options.tolerance(&index.frame));
+        }
+        foot
+    }
+
+    /// Whether a restriction lies in the domain: `[u0, u1, _, _]` with u0 < u1.
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] naming the entry.
+    pub fn check_domain(&self, domain: [f64; 4]) -> Result<(), Error> {
+        super::check_range("domain", 0, [domain[0], domain[1]], self.curve().domain())
+    }
+
+    fn range(&self, options: &QueryOptions) -> [f64; 2] {
+        let (first, last) = self.curve().domain();
+        options.domain.map_or([first, last], |d| [d[0].max(first), d[1].min(last)])
+    }
+
+    fn local(
+        &self,
+        index: &CurveIndex,
+        query: Vector,
+        hint: Option<f64>,
+        options: &QueryOptions,
+        trace: Option<Trace>,
+    ) -> FootPoint {
+        let start = hint.unwrap_or_else(|| curve_start(index, index.frame.enter(query)));
+        let curve = WholeCurve { curve: self.curve(), query };
+        let (u, _, taken) =
+            foot_on_curve(&curve, start, self.range(options), options.method, trace);
+        let mut foot = self.foot_at(index, query, u);
+        foot.flags |= LOCAL_FLAGS | if hint.is_some() { flag::HINT_USED } else { 0 };
+        foot.iterations = taken;
+        foot
+    }
+
+    fn global(
+        &self,
+        index: &CurveIndex,
+        query: Vector,
+        hint: Option<f64>,
+        options: &QueryOptions,
+        workspace: &mut Workspace,
+        mut trace: Option<Trace>,
+    ) -> FootPoint {
+        let traced = trace.is_some();
+        let q = index.frame.enter(query);
+        let steps = position_steps(index.degree());
+        let worst = position_error(steps, 2.0, norm(q) + 2.0, norm(q));
+        let allowed =
+            options.accuracy(&index.frame).max(rounding_floor(&index.frame, query, worst));
+        let budget = if options.budget > 0 {
+            options.budget
+        } else {
+            default_budget(2 * index.degree() + 1)
+        };
+        let search = CurveSearch { index, query: q, range: self.range(options), options, steps };
+        let mut tell = |step: u32, site: Site, d: f64| {
+            if let Some(trace) = &mut trace {
+                trace(step, search.parameter(site), 0.0, d / index.frame.scale);
+            }
+        };
+        let watch: Option<Watch> = if traced { Some(&mut tell) } else { None };
+        let mut proof = Proof::new(0.5 * allowed * index.frame.scale, budget, watch);
+        if let Some(u) = hint {
+            search.start_at(u, &mut proof);
+        }
+        search.walk(workspace, &mut proof);
+        let Some(site) = proof.site else { return FootPoint::unreached() };
+        let mut foot = self.foot_at(index, query, search.parameter(site));
+        certify(&mut foot, &proof, &index.frame, allowed);
+        if hint.is_some() {
+            foot.flags |= flag::HINT_USED;
+        }
+        foot
+    }
+
+    /// The record at a parameter, with the flags of the place.
+    fn foot_at(&self, index: &CurveIndex, query: Vector, u: f64) -> FootPoint {
+        let (first, last) = self.curve().domain();
+        let mut u = u;
+        let mut point = self.curve().evaluate(u);
+        let mut flags = 0;
+        let closed = index.closed;
+        if closed && u == last {
+            // The canonical parameter of a seam is the start, when it is as near.
+            let start = self.curve().evaluate(first);
+            let floor = rounding_floor(&index.frame, query, 0.0);
+            if distance(query, start) <= distance(query, point) + floor {
+                (u, point) = (first, start);
+            }
+        }
+        if u == first || u == last {
+            flags |= flag::EDGE | if closed { flag::SEAM } else { 0 };
+        }
+        if self.is_crease(index, u) {
+            flags |= flag::CREASE;
+        }
+        FootPoint {
+            u,
+            v: 0.0,
+            point,
+            distance: distance(query, point),
+            lower_bound: 0.0,
+            flags,
+            iterations: 0,
+        }
+    }
+
+    /// Whether the tangent breaks at `u`: a knot of multiplicity >= degree where the one-sided tangents differ.
+    fn is_crease(&self, index: &CurveIndex, u: f64) -> bool {
+        let curve = self.curve();
+        let (first, last) = curve.domain();
+        let at_seam = u == first || u == last;
+        if at_seam && !index.closed || !at_seam && curve.knots().multiplicity(u) < curve.degree() {
+            return false;
+        }
+        let after = index.segments.iter().position(|s| s.u[0] == u);
+        let (before, after) = match after {
+            Some(k) if k > 0 => (k - 1, k),
+            _ if at_seam => (index.segments.len() - 1, 0),
+            _ => return false,
+        };
+        let (a, b) =
+            (index.net(before).jet(1.0, [0.0; 3]).s, index.net(after).jet(0.0, [0.0; 3]).s);
+        let size = norm(a) * norm(b);
+        size > 0.0 && (norm(cross(a, b)) > LEAST_CREASE * size || dot(a, b) < 0.0)
+    }
+}
+
+/// One global search on a curve.
+struct CurveSearch<'a> {
+    index: &'a CurveIndex,
+    query: Vector,
+    range: [f64; 2],
+    options: &'a QueryOptions,
+    steps: f64,
+}
+
+impl CurveSearch<'_> {
+    /// The part of segment `k` inside the restriction, in local parameters.
+    fn local_range(&self, k: usize) -> Option<[f64; 2]> {
+        let [u0, u1] = self.index.segments[k].u;
+        if self.range[0] >= u1 && self.range[0] > u0 && k + 1 < self.index.segments.len()
+            || self.range[1] <= u0 && k > 0
+        {
+            return None;
+        }
+        let local = |u: f64| {
+            if u <= u0 {
+                0.0
+            } else if u >= u1 {
+                1.0
+            } else {
+                (u - u0) / (u1 - u0)
+            }
+        };
+        Some(self.range.map(local))
+    }
+
+    /// The caller's parameter of a place; ends of segments and of the restriction come out exactly.
+    fn parameter(&self, site: Site) -> f64 {
+        let [u0, u1] = self.index.segments[site.piece].u;
+        let u = match site.at[0] {
+            0.0 => u0,
+            1.0 => u1,
+            s => u0 + s * (u1 - u0),
+        };
+        u.clamp(self.range[0], self.range[1])
+    }
+
+    fn start_at(&self, u: f64, proof: &mut Proof) {
+        let u = u.clamp(self.range[0], self.range[1]);
+        let k =
+            self.index.segments.partition_point(|s| s.u[1] <= u).min(self.index.segments.len() - 1);
+        let Some(range) = self.local_range(k) else { return };
+        let segment = &self.index.segments[k];
+        let view = (self.index.net(k), sub(self.query, segment.center));
+        let start = (u - segment.u[0]) / (segment.u[1] - segment.u[0]);
+        let (s, jet, taken) = foot_on_curve(&view, start, range, self.options.method, None);
+        proof.evaluations += taken;
+        proof.offer(Site { piece: k, at: [s, 0.0] }, norm(jet.d));
+    }
+
+    fn walk(&self, workspace: &mut Workspace, proof: &mut Proof) {
+        let slack = 16.0 * HALF_ULP * (2.0 + norm(self.query));
+        let limit = |proof: &Proof| {
+            let reach = proof.target + slack;
+            reach * reach * (1.0 + 32.0 * HALF_ULP)
+        };
+        self.index.tree.start(&mut workspace.queue);
+        while let Some(next) = workspace.queue.pop() {
+            if proof.is_trivial() || next.key > limit(proof) {
+                return;
+            }
+            match next.piece() {
+                None => self.index.tree.open(next, self.query, limit(proof), &mut workspace.queue),
+                Some(k) => self.search(k, &mut workspace.line, proof),
+            }
+        }
+    }
+
+    fn search(&self, k: usize, memory: &mut LineMemory, proof: &mut Proof) {
+        let Some(range) = self.local_range(k) else { return };
+        let segment = &self.index.segments[k];
+        let p = sub(self.query, segment.center);
+        let size = norm(p);
+        let position = position_error(self.steps, segment.radius, size, norm(self.query));
+        let site = |s: f64| Site { piece: k, at: [s, 0.0] };
+        let line = Line {
+            segment: self.index.net(k),
+            query: p,
+            position,
+            range,
+            border: [segment.border[0] || range[0] > 0.0, segment.border[1] || range[1] < 1.0],
+            site: &site,
+            method: self.options.method,
+        };
+        let mut product = [0.0; 2 * (2 * crate::knots::MAX_DEGREE + 1)];
+        let given = match self.index.tensors(k) {
+            Some(tensors) if range == [0.0, 1.0] => {
+                Some(multiply(tensors, p, line.segment.degree, line.segment.rational, &mut product))
+            }
+            _ => None,
+        };
+        let given = given.map(|(n, c)| {
+            let radius = segment.radius + size;
+            let steps = product_steps(line.segment.degree + 1);
+            Given { n, c, error: squared_error(position, radius, steps), radius }
+        });
+        search_line(&line, given, memory, proof);
+    }
+}
+
+/// Coefficients of N and C from the tensors of a segment.
+fn multiply<'a>(
+    tensors: &[f64],
+    p: Vector,
+    degree: usize,
+    rational: bool,
+    out: &'a mut [f64],
+) -> (&'a [f64], &'a [f64]) {
+    let count = 2 * degree + 1;
+    let square = dot(p, p);
+    let (n, c) = out.split_at_mut(count);
+    for k in 0..count {
+        let weight = if rational { tensors[4 * count + k] } else { 1.0 };
+        let xy = p[0] * tensors[count + k] + p[1] * tensors[2 * count + k];
+        n[k] = tensors[k] + xy + (p[2] * tensors[3 * count + k] + square * weight);
+        c[k] = weight;
+    }
+    (n, if rational { &c[..count] } else { &[] })
+}

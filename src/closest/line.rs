@@ -1,0 +1,462 @@
+//! The certified search on one Bezier segment: a piece of a curve, or an edge of a patch.
+//!
+//! ```text
+//!   box -> all N > (target^2 + e) C ?         nothing nearer than the target here
+//!       -> h strictly monotone ?              only an end can be nearest: look at it, if it is a border
+//!       -> h convex, first-order bound ?      the minimum is where the iteration says
+//!       -> otherwise halve; every few halvings the coefficients are rebuilt from the poles
+//! ```
+
+use super::proof::{Proof, Site, squared_error};
+use crate::bezier::{Bidegree, convolve_square, cut, halve_t, scale_down_2d, scale_up_2d};
+use crate::bounds::{HALF_ULP, Vector, dot, extent, norm};
+use crate::index::product_steps;
+use crate::jet::{BezierSegment, Jet1};
+use crate::knots::MAX_DEGREE;
+use crate::refine::{Method, foot_on_curve};
+
+/// Most boxes waiting on one segment: each halving leaves one, and boxes narrower than `LEAST_WIDTH` are given up.
+const MAX_WAITING: usize = 64;
+/// Narrowest box: below it the parameters have no digits left to tell points apart.
+const LEAST_WIDTH: f64 = 1e-14;
+/// Halvings after which coefficients are rebuilt from the poles, to shed their rounding.
+const FRESH: u32 = 8;
+
+/// A segment in the search, with what the proof must know about it.
+pub struct Line<'a> {
+    /// Its poles.
+    pub segment: BezierSegment<'a>,
+    /// The query in the segment's coordinates.
+    pub query: Vector,
+    /// How far `r / W` computed may be off.
+    pub position: f64,
+    /// Part of the segment that is searched.
+    pub range: [f64; 2],
+    /// Whether a foot with a gradient may sit on the ends of `range`.
+    pub border: [bool; 2],
+    /// The local parameters of a place on the line, for the record.
+    pub site: &'a dyn Fn(f64) -> Site,
+    /// Local iteration.
+    pub method: Method,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Interval {
+    low: f64,
+    high: f64,
+    error: f64,
+    radius: f64,
+    age: u32,
+}
+
+/// Memory of the search on lines.
+#[derive(Clone, Debug, Default)]
+pub struct LineMemory {
+    waiting: Vec<Interval>,
+    coefficients: Vec<f64>,
+    net: Vec<f64>,
+    h: Vec<f64>,
+}
+
+impl LineMemory {
+    fn reserve(&mut self, degree: usize) {
+        let slot = 2 * (2 * degree + 1);
+        if self.coefficients.len() < slot * MAX_WAITING {
+            self.coefficients.resize(slot * MAX_WAITING, 0.0);
+            self.waiting.reserve(MAX_WAITING);
+            self.net.resize(4 * (MAX_DEGREE + 1), 0.0);
+            self.h.resize(2 * (2 * MAX_DEGREE + 1), 0.0);
+        }
+    }
+}
+
+/// Coefficients handed over by the caller: those of `N` and, when rational, of `C` on the whole range.
+pub struct Given<'a> {
+    /// Coefficients of N.
+    pub n: &'a [f64],
+    /// Coefficients of C, empty when polynomial.
+    pub c: &'a [f64],
+    /// Their rounding (see [`squared_error`]) and the radius it was made with.
+    pub error: f64,
+    /// See `error`.
+    pub radius: f64,
+}
+
+/// Searches the line. On return every point of it is at least `proof.target` away, or given up in `proof.lower`,
+/// or cannot be the nearest point of the whole shape.
+pub fn search_line(line: &Line, given: Option<Given>, memory: &mut LineMemory, proof: &mut Proof) {
+    Walk::new(line, memory, proof).run(given);
+}
+
+struct Walk<'a, 'b, 't> {
+    line: &'a Line<'b>,
+    memory: &'a mut LineMemory,
+    proof: &'a mut Proof<'t>,
+    /// Coefficients of one polynomial.
+    count: usize,
+    slot: usize,
+}
+
+/// What became of an interval.
+enum Verdict {
+    Closed,
+    Halve,
+    GiveUp,
+}
+
+impl<'a, 'b, 't> Walk<'a, 'b, 't> {
+    fn new(line: &'a Line<'b>, memory: &'a mut LineMemory, proof: &'a mut Proof<'t>) -> Self {
+        memory.reserve(line.segment.degree);
+        memory.waiting.clear();
+        let count = 2 * line.segment.degree + 1;
+        Self {
+            line,
+            memory,
+            proof,
+            count,
+            slot: if line.segment.rational { 2 * count } else { count },
+        }
+    }
+
+    fn run(&mut self, given: Option<Given>) {
+        let [low, high] = self.line.range;
+        let mut first = Interval { low, high, ..Interval::default() };
+        match given {
+            Some(given) => {
+                self.memory.coefficients[..self.count].copy_from_slice(given.n);
+                if self.line.segment.rational {
+                    self.memory.coefficients[self.count..self.slot].copy_from_slice(given.c);
+                }
+                (first.error, first.radius) = (given.error, given.radius);
+            }
+            None => {
+                if self.load(&mut first, 0) {
+                    return;
+                }
+            }
+        }
+        self.memory.waiting.push(first);
+        while let Some(mut interval) = self.memory.waiting.pop() {
+            if self.proof.is_trivial() {
+                return;
+            }
+            let at = self.memory.waiting.len();
+            match self.judge(&mut interval, at) {
+                Verdict::Closed => {}
+                Verdict::GiveUp => {
+                    let bound = self.bound(&interval, at);
+                    self.proof.give_up(bound);
+                }
+                Verdict::Halve => self.halve(interval, at),
+            }
+        }
+    }
+
+    fn n(&self, at: usize) -> &[f64] {
+        &self.memory.coefficients[at * self.slot..at * self.slot + self.count]
+    }
+
+    fn c(&self, at: usize) -> &[f64] {
+        &self.memory.coefficients[at * self.slot + self.count..(at + 1) * self.slot]
+    }
+
+    /// Least ratio N / C of the coefficients and its index: a bound of the squared distance but for rounding.
+    fn least_ratio(&self, at: usize) -> (f64, usize) {
+        let mut least = (f64::INFINITY, 0);
+        for (k, &n) in self.n(at).iter().enumerate() {
+            let ratio = if self.line.segment.rational { n / self.c(at)[k] } else { n };
+            if ratio < least.0 {
+                least = (ratio, k);
+            }
+        }
+        least
+    }
+
+    fn bound(&self, interval: &Interval, at: usize) -> f64 {
+        (self.least_ratio(at).0 - interval.error).max(0.0).sqrt() * (1.0 - 4.0 * HALF_ULP)
+    }
+
+    fn judge(&mut self, interval: &mut Interval, at: usize) -> Verdict {
+        let (mut least, mut place) = self.least_ratio(at);
+        if least > self.proof.target_squared + interval.error {
+            return Verdict::Closed;
+        }
+        if !self.proof.spend() || interval.high - interval.low < LEAST_WIDTH {
+            return Verdict::GiveUp;
+        }
+        if interval.age >= FRESH || (least > self.proof.target_squared && interval.age > 0) {
+            if self.load(interval, at) {
+                return Verdict::Closed;
+            }
+            (least, place) = self.least_ratio(at);
+            if least > self.proof.target_squared + interval.error {
+                return Verdict::Closed;
+            }
+        }
+        if self.proof.best == f64::INFINITY {
+            self.iterate(interval, place);
+        }
+        if let Some(end) = self.monotone(interval, at, least) {
+            if self.is_border(interval, end) {
+                self.look_at_end(interval, end);
+            }
+            return Verdict::Closed;
+        }
+        if self.convex(interval, at, place) {
+            return Verdict::Closed;
+        }
+        self.probe(interval, place);
+        Verdict::Halve
+    }
+
+    fn is_border(&self, interval: &Interval, end: usize) -> bool {
+        let inner = if end == 0 { interval.low } else { interval.high };
+        self.line.border[end] && inner == self.line.range[end]
+    }
+
+    fn look_at_end(&mut self, interval: &Interval, end: usize) {
+        let s = if end == 0 { interval.low } else { interval.high };
+        let jet = self.line.segment.jet(s, self.line.query);
+        self.proof.evaluations += 1;
+        self.proof.offer((self.line.site)(s), norm(jet.d));
+    }
+
+    /// Coefficients of `N - mu C` into half `part` of the scratch memory.
+    fn form(&mut self, at: usize, part: usize, mu: f64) {
+        for k in 0..self.count {
+            let n = self.n(at)[k];
+            let c = if self.line.segment.rational { self.c(at)[k] } else { 1.0 };
+            self.memory.h[part * self.count + k] = n - mu * c;
+        }
+    }
+
+    fn greatest_weight(&self, at: usize) -> f64 {
+        if self.line.segment.rational { extent(self.c(at)).1 } else { 1.0 }
+    }
+
+    /// The end at which `h` is least, when it is strictly monotone for every squared distance that a nearest
+    /// point in this interval can have.
+    fn monotone(&mut self, interval: &Interval, at: usize, least: f64) -> Option<usize> {
+        let reach = self.proof.best + self.line.position;
+        self.form(at, 0, (least - interval.error).max(0.0));
+        self.form(at, 1, reach * reach);
+        let allowance = 2.0 * interval.error * self.greatest_weight(at);
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for h in self.memory.h[..2 * self.count].chunks_exact(self.count) {
+            for pair in h.windows(2) {
+                low = low.min(pair[1] - pair[0]);
+                high = high.max(pair[1] - pair[0]);
+            }
+        }
+        if low > allowance {
+            return Some(0);
+        }
+        (high < -allowance).then_some(1)
+    }
+
+    /// Runs the local iteration in the interval from the Greville abscissa of coefficient `place`, or from the
+    /// best foot when it is inside.
+    fn iterate(&mut self, interval: &Interval, place: usize) -> (f64, Jet1) {
+        let (low, high) = (interval.low, interval.high);
+        let curve = (self.line.segment, self.line.query);
+        let start = self.abscissa(interval, place);
+        let (s, jet, taken) = match &mut self.proof.trace {
+            None => foot_on_curve(&curve, start, [low, high], self.line.method, None),
+            Some(watch) => {
+                let mut tell =
+                    |step: u32, s: f64, _: f64, d: f64| watch(step, (self.line.site)(s), d);
+                foot_on_curve(&curve, start, [low, high], self.line.method, Some(&mut tell))
+            }
+        };
+        self.proof.evaluations += taken;
+        self.proof.offer((self.line.site)(s), norm(jet.d));
+        (s, jet)
+    }
+
+    /// The Greville abscissa of coefficient `place`.
+    fn abscissa(&self, interval: &Interval, place: usize) -> f64 {
+        let share = place as f64 / (self.count - 1) as f64;
+        interval.low + share * (interval.high - interval.low)
+    }
+
+    /// Looks at one point of an interval that is not closed yet, and iterates from it when it is nearer than the
+    /// best: a target far too high makes `h` concave (by its term in C), and no test could ever close.
+    fn probe(&mut self, interval: &Interval, place: usize) {
+        let jet = self.line.segment.jet(self.abscissa(interval, place), self.line.query);
+        self.proof.evaluations += 1;
+        if norm(jet.d) < self.proof.target {
+            self.iterate(interval, place);
+        }
+    }
+
+    /// Whether convexity and the first-order conditions at the iteration's result prove the target.
+    fn convex(&mut self, interval: &Interval, at: usize, place: usize) -> bool {
+        let weight = self.greatest_weight(at);
+        if self.curvature(interval, at, weight) <= 0.0 {
+            return false;
+        }
+        let (s, jet) = self.iterate(interval, place);
+        let curvature = self.curvature(interval, at, weight);
+        curvature > 0.0 && self.first_order(interval, s, &jet, curvature)
+    }
+
+    /// A lower bound of the second derivative of `h` at the target, in the interval's own unit parameter.
+    fn curvature(&mut self, interval: &Interval, at: usize, weight: f64) -> f64 {
+        self.form(at, 0, self.proof.target_squared);
+        let n = (self.count - 1) as f64;
+        let h = &self.memory.h[..self.count];
+        let least =
+            h.windows(3).map(|w| (w[2] - w[1]) - (w[1] - w[0])).fold(f64::INFINITY, f64::min);
+        n * (n - 1.0) * (least - 4.0 * interval.error * weight)
+    }
+
+    /// `h >= h(s) - g^2 / (2 m)` on the interval; see [`first_order_loss`].
+    fn first_order(&self, interval: &Interval, s: f64, jet: &Jet1, m: f64) -> bool {
+        let position = self.line.position;
+        let value = value_at(norm(jet.d), jet.w[0], position, self.proof);
+        let slack =
+            slope_error(norm(jet.d), norm(jet.s), jet.w[0], position, self.line.segment.degree);
+        let width = interval.high - interval.low;
+        let excess = dot(jet.d, jet.d) - self.proof.target_squared;
+        let g = 2.0 * jet.w[0] * (jet.w[1] * excess + jet.w[0] * jet.gradient());
+        let g = free_slope(g * width, slack * width, s <= interval.low, s >= interval.high);
+        value > 0.0 && g * g <= 2.0 * m * value * (1.0 - 1e-12)
+    }
+
+    /// Rebuilds the coefficients of slot `at` from the poles; true when a plane already separates the query.
+    fn load(&mut self, interval: &mut Interval, at: usize) -> bool {
+        let p = self.line.segment.degree;
+        let size = p + 1;
+        let components = if self.line.segment.rational { 4 } else { 3 };
+        let net = &mut self.memory.net[..4 * size];
+        net[..components * size].copy_from_slice(self.line.segment.poles);
+        net[components * size..].fill(1.0);
+        for component in net[..components * size].chunks_exact_mut(size) {
+            cut(component, p, 1, 1, interval.low, interval.high);
+        }
+        let radius = subtract_query(net, size, self.line.query);
+        if plane_separates(net, size, self.proof.target, self.line.position) {
+            return true;
+        }
+        let slot = &mut self.memory.coefficients[at * self.slot..(at + 1) * self.slot];
+        square(net, Bidegree { s: 0, t: p }, slot);
+        let steps = product_steps(3 * size);
+        *interval = Interval {
+            error: squared_error(self.line.position, radius, steps)
+                + 8.0 * HALF_ULP * self.proof.target_squared,
+            radius,
+            age: 0,
+            ..*interval
+        };
+        false
+    }
+
+    fn halve(&mut self, interval: Interval, at: usize) {
+        if at + 2 > MAX_WAITING {
+            let bound = self.bound(&interval, at);
+            self.proof.give_up(bound);
+            return;
+        }
+        let degree = Bidegree { s: 0, t: self.count - 1 };
+        let (low, high) =
+            self.memory.coefficients[at * self.slot..(at + 2) * self.slot].split_at_mut(self.slot);
+        for (a, b) in low.chunks_exact_mut(self.count).zip(high.chunks_exact_mut(self.count)) {
+            halve_t(a, b, degree);
+        }
+        let middle = 0.5 * (interval.low + interval.high);
+        let growth = 2.0 * HALF_ULP * (self.count - 1) as f64 * interval.radius * interval.radius;
+        let child = Interval { error: interval.error + growth, age: interval.age + 1, ..interval };
+        let mut pair = [Interval { high: middle, ..child }, Interval { low: middle, ..child }];
+        if self.least_ratio(at).0 < self.least_ratio(at + 1).0 {
+            // The more promising half goes on top.
+            let (low, high) = self.memory.coefficients[at * self.slot..(at + 2) * self.slot]
+                .split_at_mut(self.slot);
+            low.swap_with_slice(high);
+            pair.swap(0, 1);
+        }
+        self.memory.waiting.extend(pair);
+    }
+}
+
+/// `X - W p` in place of `X`; returns the greatest `|r| / W`.
+pub fn subtract_query(net: &mut [f64], count: usize, query: Vector) -> f64 {
+    let (xyz, w) = net.split_at_mut(3 * count);
+    let mut greatest: f64 = 0.0;
+    for k in 0..count {
+        let mut sum = 0.0;
+        for c in 0..3 {
+            let r = xyz[c * count + k] - w[k] * query[c];
+            xyz[c * count + k] = r;
+            sum += r * r;
+        }
+        greatest = greatest.max(sum / (w[k] * w[k]));
+    }
+    greatest.sqrt() * (1.0 + 8.0 * HALF_ULP)
+}
+
+/// Whether a plane at distance `target` from the query has all of the net on its other side.
+///
+/// The normal is the direction of the summed net: the linear form has no squares, so it works down to rounding.
+pub fn plane_separates(net: &[f64], count: usize, target: f64, position: f64) -> bool {
+    let n = [0, 1, 2].map(|c| net[c * count..(c + 1) * count].iter().sum::<f64>());
+    let size = norm(n);
+    if size == 0.0 || !size.is_finite() {
+        return false;
+    }
+    let n = n.map(|x| x / size);
+    let least = (target + 2.0 * position) * (1.0 + 32.0 * HALF_ULP);
+    let height = |k: usize| n[0] * net[k] + n[1] * net[count + k] + n[2] * net[2 * count + k];
+    (0..count).all(|k| height(k) > least * net[3 * count + k])
+}
+
+/// Coefficients of `|r|^2` and, when the slot has room for it, of `W^2`.
+pub fn square(net: &mut [f64], degree: Bidegree, slot: &mut [f64]) {
+    let (count, twice) = (degree.count(), degree.times(degree));
+    slot.fill(0.0);
+    for component in net.chunks_exact_mut(count) {
+        scale_up_2d(component, degree);
+    }
+    let (n, c) = slot.split_at_mut(twice.count());
+    for component in net[..3 * count].chunks_exact(count) {
+        convolve_square(component, degree, 1.0, n);
+    }
+    scale_down_2d(n, twice);
+    if !c.is_empty() {
+        convolve_square(&net[3 * count..], degree, 1.0, c);
+        scale_down_2d(c, twice);
+    }
+}
+
+/// A lower bound of `h = W^2 (d^2 - target^2)` where the distance is `d` and the weight `w`, both rounded.
+pub fn value_at(d: f64, w: f64, position: f64, proof: &Proof) -> f64 {
+    let d = d - position;
+    if d <= proof.target {
+        0.0
+    } else {
+        w * w * ((d - proof.target) * (d + proof.target)) * (1.0 - 1e-12)
+    }
+}
+
+/// How far the computed slope `2 w (w' (d^2 - target^2) + w d.d')` of `h` may be off.
+///
+/// With `position` the error of the point, that of the derivative is at most `12 degree position / w` (weights are
+/// at most 2 after normalisation, and the quotient rule has three terms); `w'` is at most `4 degree`.
+pub fn slope_error(d: f64, speed: f64, w: f64, position: f64, degree: usize) -> f64 {
+    let p = degree as f64;
+    let derivative = 12.0 * p * position / w.min(1.0);
+    let product = position * (speed + derivative) + d * derivative + 16.0 * HALF_ULP * d * speed;
+    4.0 * w * w * product + 16.0 * w * p * d * (position + 1e-14 * d)
+}
+
+/// The part of a slope that can lower `h`: at the low end only a negative one, at the high end only a positive one.
+pub fn free_slope(g: f64, slack: f64, at_low: bool, at_high: bool) -> f64 {
+    if at_low && at_high {
+        0.0
+    } else if at_low {
+        (slack - g).max(0.0)
+    } else if at_high {
+        (slack + g).max(0.0)
+    } else {
+        g.abs() + slack
+    }
+}

@@ -1,0 +1,147 @@
+//! Local scope: the published iterations on the shape itself, from a hint or from the published start.
+//!
+//! The start is that of Hu, Sun, Jin, Wang: the pieces whose hull (a box that holds it) holds the query are cut
+//! three times; the parameters of the sub-piece that survives are the start. Where several or none survive, the
+//! one with the nearest box is taken, and of its corners the nearest.
+
+use super::flag;
+use crate::bezier::cut;
+use crate::bounds::{Aabb, Vector, norm, sub};
+use crate::curve::Curve;
+use crate::index::{CurveIndex, SurfaceIndex};
+use crate::jet::{Jet1, Jet2};
+use crate::refine::{CurveJets, SurfaceJets};
+use crate::surface::Surface;
+
+/// Subdivision levels of the published start.
+const LEVELS: u32 = 3;
+
+/// A curve as the local iteration sees it, in the caller's coordinates.
+pub struct WholeCurve<'a> {
+    /// The curve.
+    pub curve: &'a Curve,
+    /// The query.
+    pub query: Vector,
+}
+
+/// A surface as the local iteration sees it, in the caller's coordinates.
+pub struct WholeSurface<'a> {
+    /// The surface.
+    pub surface: &'a Surface,
+    /// The query.
+    pub query: Vector,
+}
+
+impl CurveJets for WholeCurve<'_> {
+    fn jet(&self, s: f64) -> Jet1 {
+        let mut out = [[0.0; 3]; 3];
+        self.curve.derivatives(s, 2, &mut out);
+        Jet1 { d: sub(out[0], self.query), s: out[1], ss: out[2], w: [1.0, 0.0] }
+    }
+
+    fn global(&self, s: f64) -> [f64; 2] {
+        [s, 0.0]
+    }
+}
+
+impl SurfaceJets for WholeSurface<'_> {
+    fn jet(&self, s: f64, t: f64) -> Jet2 {
+        let mut out = [[0.0; 3]; 6];
+        self.surface.partials(s, t, 2, &mut out);
+        let [point, s, t, ss, st, tt] = out;
+        Jet2 { d: sub(point, self.query), s, t, ss, st, tt, w: [1.0, 0.0, 0.0] }
+    }
+
+    fn global(&self, s: f64, t: f64) -> [f64; 2] {
+        [s, t]
+    }
+}
+
+/// Flags of every local answer.
+pub const LOCAL_FLAGS: u32 = flag::NOT_PROVEN;
+
+fn distance_to(aabb: &Aabb, query: Vector) -> f64 {
+    norm([0, 1, 2].map(|k| (aabb.low[k] - query[k]).max(query[k] - aabb.high[k]).max(0.0)))
+}
+
+fn hull(net: &[f64], count: usize, rational: bool) -> Aabb {
+    let mut aabb = Aabb::EMPTY;
+    for k in 0..count {
+        let w = if rational { net[3 * count + k] } else { 1.0 };
+        aabb.include([net[k] / w, net[count + k] / w, net[2 * count + k] / w]);
+    }
+    aabb
+}
+
+/// The published start on a curve; `query` in the index's coordinates.
+pub fn curve_start(index: &CurveIndex, query: Vector) -> f64 {
+    let mut best = (f64::INFINITY, 0.0);
+    for (k, segment) in index.segments.iter().enumerate() {
+        let view = index.net(k);
+        let p = sub(query, segment.center);
+        let parts = 1 << LEVELS;
+        for part in 0..parts {
+            let range = [part, part + 1].map(|x| f64::from(x) / f64::from(parts));
+            let mut net = view.poles.to_vec();
+            for component in net.chunks_exact_mut(view.degree + 1) {
+                cut(component, view.degree, 1, 1, range[0], range[1]);
+            }
+            let away = distance_to(&hull(&net, view.degree + 1, view.rational), p);
+            if away < best.0 {
+                let nearest = range.map(|s| norm(view.jet(s, p).d));
+                let s = if nearest[0] <= nearest[1] { range[0] } else { range[1] };
+                best = (away, segment.u[0] + s * (segment.u[1] - segment.u[0]));
+            }
+        }
+    }
+    best.1
+}
+
+/// The published start on a surface; `query` in the index's coordinates.
+pub fn surface_start(index: &SurfaceIndex, query: Vector) -> [f64; 2] {
+    let mut order: Vec<(f64, usize)> = Vec::with_capacity(index.patches.len());
+    for (k, patch) in index.patches.iter().enumerate() {
+        let view = index.net(k);
+        let aabb = hull(view.poles, view.degree.count(), view.rational);
+        order.push((distance_to(&aabb, sub(query, patch.center)), k));
+    }
+    order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let mut best = (f64::INFINITY, [0.0; 2]);
+    for (away, k) in order {
+        if away >= best.0 {
+            break;
+        }
+        patch_start(index, k, query, &mut best);
+    }
+    best.1
+}
+
+fn patch_start(index: &SurfaceIndex, k: usize, query: Vector, best: &mut (f64, [f64; 2])) {
+    let (view, patch) = (index.net(k), &index.patches[k]);
+    let p = sub(query, patch.center);
+    let parts = 1u32 << LEVELS;
+    let width = view.degree.t + 1;
+    let range = |part: u32| [part, part + 1].map(|x| f64::from(x) / f64::from(parts));
+    for (i, j) in (0..parts * parts).map(|n| (n / parts, n % parts)) {
+        let (s, t) = (range(i), range(j));
+        let mut net = view.poles.to_vec();
+        for component in net.chunks_exact_mut(view.degree.count()) {
+            cut(component, view.degree.s, width, width, s[0], s[1]);
+            for row in component.chunks_exact_mut(width) {
+                cut(row, view.degree.t, 1, 1, t[0], t[1]);
+            }
+        }
+        let away = distance_to(&hull(&net, view.degree.count(), view.rational), p);
+        if away < best.0 {
+            let corners = [[s[0], t[0]], [s[0], t[1]], [s[1], t[0]], [s[1], t[1]]];
+            let apart = |at: &[f64; 2]| norm(view.jet(at[0], at[1], p).d);
+            let nearest = corners.into_iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
+            let [s, t] = nearest.unwrap_or([s[0], t[0]]);
+            let at = [
+                patch.u[0] + s * (patch.u[1] - patch.u[0]),
+                patch.v[0] + t * (patch.v[1] - patch.v[0]),
+            ];
+            *best = (away, at);
+        }
+    }
+}

@@ -1,0 +1,700 @@
+//! The certified search on one Bezier patch. The steps are those of `line`, in two parameters; where `h` is
+//! monotone in one of them and the side is a border, the search goes on along that side.
+//!
+//! At a collapsed side the derivative along it vanishes for every shape: the collapsed point is looked at once,
+//! and off that side the sign of the derivative of the distance itself is used (see [`Walk::turning`]).
+
+use super::line::{
+    Given, Line, LineMemory, free_slope, plane_separates, search_line, slope_error, square,
+    subtract_query, value_at,
+};
+use super::proof::{Proof, Site, squared_error};
+use crate::bezier::{Bidegree, convolve, cut, halve_s, halve_t, scale_down_2d, scale_up_2d};
+use crate::bounds::{HALF_ULP, Vector, dot, extent, norm};
+use crate::index::{Patch, product_steps, side};
+use crate::jet::{BezierPatch, BezierSegment, Jet2};
+use crate::knots::MAX_DEGREE;
+use crate::refine::{Method, foot_on_surface};
+
+const MAX_WAITING: usize = 128;
+const LEAST_WIDTH: f64 = 1e-14;
+/// Halvings after which coefficients are rebuilt from the poles, to shed their rounding.
+const FRESH: u32 = 12;
+
+/// A patch in the search.
+pub struct Sheet<'a> {
+    /// Its poles.
+    pub net: BezierPatch<'a>,
+    /// Its borders and collapsed sides.
+    pub patch: &'a Patch,
+    /// Its number.
+    pub piece: usize,
+    /// Tensors A, -2 B, C, when they are kept.
+    pub tensors: Option<&'a [f64]>,
+    /// The query in the patch's coordinates.
+    pub query: Vector,
+    /// How far `r / W` computed may be off.
+    pub position: f64,
+    /// Part that is searched: s low, s high, t low, t high.
+    pub range: [f64; 4],
+    /// Whether a foot with a gradient may sit on the four sides of `range`.
+    pub border: [bool; 4],
+    /// Local iteration.
+    pub method: Method,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Area {
+    s: [f64; 2],
+    t: [f64; 2],
+    error: f64,
+    radius: f64,
+    age: u32,
+}
+
+/// Memory of the search on patches.
+#[derive(Clone, Debug, Default)]
+pub struct PatchMemory {
+    waiting: Vec<Area>,
+    coefficients: Vec<f64>,
+    net: Vec<f64>,
+    h: Vec<f64>,
+    edge: Vec<f64>,
+    turning: Vec<f64>,
+    line: LineMemory,
+}
+
+impl PatchMemory {
+    fn reserve(&mut self, degree: Bidegree) {
+        let count = degree.times(degree).count();
+        if self.h.len() < 2 * count {
+            self.coefficients.resize(2 * count * MAX_WAITING, 0.0);
+            self.h.resize(2 * count, 0.0);
+            self.waiting.reserve(MAX_WAITING);
+            self.edge.resize(4 * (MAX_DEGREE + 1) + 4 * (2 * MAX_DEGREE + 1), 0.0);
+        }
+        if self.net.len() < 4 * degree.count() {
+            self.net.resize(4 * degree.count(), 0.0);
+        }
+    }
+}
+
+/// Searches the patch; see [`search_line`] for what holds on return.
+pub fn search_patch(sheet: &Sheet, memory: &mut PatchMemory, proof: &mut Proof) {
+    memory.reserve(sheet.net.degree);
+    memory.waiting.clear();
+    let degree = sheet.net.degree.times(sheet.net.degree);
+    let count = degree.count();
+    let slot = if sheet.net.rational { 2 * count } else { count };
+    Walk { sheet, memory, proof, degree, count, slot }.run();
+}
+
+struct Walk<'a, 'b, 't> {
+    sheet: &'a Sheet<'b>,
+    memory: &'a mut PatchMemory,
+    proof: &'a mut Proof<'t>,
+    /// Bidegree and number of the product coefficients.
+    degree: Bidegree,
+    count: usize,
+    slot: usize,
+}
+
+enum Verdict {
+    Closed,
+    HalveS,
+    HalveT,
+    GiveUp,
+}
+
+/// Extents of the first differences of `h`, per direction.
+struct Slopes {
+    s: (f64, f64),
+    t: (f64, f64),
+}
+
+impl Walk<'_, '_, '_> {
+    fn run(&mut self) {
+        let [s0, s1, t0, t1] = self.sheet.range;
+        let mut first = Area { s: [s0, s1], t: [t0, t1], ..Area::default() };
+        self.proof.spread = self.proof.spread.max(self.sheet.patch.spread);
+        self.look_at_collapsed_sides();
+        let whole = self.sheet.range == [0.0, 1.0, 0.0, 1.0];
+        match self.sheet.tensors {
+            Some(tensors) if whole => self.multiply(tensors, &mut first),
+            _ => {
+                if self.load(&mut first, 0) {
+                    return;
+                }
+            }
+        }
+        self.memory.waiting.push(first);
+        while let Some(mut area) = self.memory.waiting.pop() {
+            if self.proof.is_trivial() {
+                return;
+            }
+            let at = self.memory.waiting.len();
+            match self.judge(&mut area, at) {
+                Verdict::Closed => {}
+                Verdict::HalveS if at + 2 <= MAX_WAITING => self.halve(area, at, 0),
+                Verdict::HalveT if at + 2 <= MAX_WAITING => self.halve(area, at, 1),
+                _ => {
+                    let bound = self.bound(&area, at);
+                    self.proof.give_up(bound);
+                }
+            }
+        }
+    }
+
+    /// The collapsed points are candidates of their own.
+    fn look_at_collapsed_sides(&mut self) {
+        let corner: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [0.0, 0.0], [0.0, 1.0]];
+        for k in 0..4 {
+            let inner = self.sheet.range[k] == [0.0, 1.0, 0.0, 1.0][k];
+            if self.sheet.patch.collapsed[k] && inner {
+                let at = [0, 1].map(|c| {
+                    corner[k][c].clamp(self.sheet.range[2 * c], self.sheet.range[2 * c + 1])
+                });
+                self.look_at(at);
+            }
+        }
+    }
+
+    fn look_at(&mut self, at: [f64; 2]) -> Jet2 {
+        let jet = self.sheet.net.jet(at[0], at[1], self.sheet.query);
+        self.proof.evaluations += 1;
+        self.proof.offer(Site { piece: self.sheet.piece, at }, norm(jet.d));
+        jet
+    }
+
+    /// Slot 0 from the tensors: `N = A - 2 p.B + |p|^2 C`.
+    fn multiply(&mut self, tensors: &[f64], area: &mut Area) {
+        let (count, p) = (self.count, self.sheet.query);
+        let square = dot(p, p);
+        let (a, rest) = tensors.split_at(count);
+        let (x, rest) = rest.split_at(count);
+        let (y, rest) = rest.split_at(count);
+        let (z, c) = rest.split_at(count);
+        let slot = &mut self.memory.coefficients[..self.slot];
+        if self.sheet.net.rational {
+            let (n, weights) = slot.split_at_mut(count);
+            weights.copy_from_slice(c);
+            for k in 0..count {
+                n[k] = a[k] + (p[0] * x[k] + p[1] * y[k]) + (p[2] * z[k] + square * c[k]);
+            }
+        } else {
+            for (k, n) in slot.iter_mut().enumerate() {
+                *n = a[k] + (p[0] * x[k] + p[1] * y[k]) + (p[2] * z[k] + square);
+            }
+        }
+        let radius = self.sheet.patch.radius + square.sqrt();
+        self.set_error(area, radius, self.sheet.net.degree.count());
+    }
+
+    fn set_error(&self, area: &mut Area, radius: f64, terms: usize) {
+        let mu = if self.proof.target.is_finite() { self.proof.target_squared } else { 0.0 };
+        area.error =
+            squared_error(self.sheet.position, radius, product_steps(terms)) + 8.0 * HALF_ULP * mu;
+        area.radius = radius;
+        area.age = 0;
+    }
+
+    fn n(&self, at: usize) -> &[f64] {
+        &self.memory.coefficients[at * self.slot..at * self.slot + self.count]
+    }
+
+    fn c(&self, at: usize) -> &[f64] {
+        &self.memory.coefficients[at * self.slot + self.count..(at + 1) * self.slot]
+    }
+
+    /// Whether all coefficients of `N - mu C` are positive.
+    fn all_beyond(&self, at: usize, mu: f64) -> bool {
+        if self.sheet.net.rational {
+            self.n(at).iter().zip(self.c(at)).all(|(n, c)| *n > mu * c)
+        } else {
+            self.n(at).iter().all(|n| *n > mu)
+        }
+    }
+
+    /// Least ratio N / C of the coefficients and its index.
+    fn least_ratio(&self, at: usize) -> (f64, usize) {
+        let mut least = (f64::INFINITY, 0);
+        for (k, &n) in self.n(at).iter().enumerate() {
+            let ratio = if self.sheet.net.rational { n / self.c(at)[k] } else { n };
+            if ratio < least.0 {
+                least = (ratio, k);
+            }
+        }
+        least
+    }
+
+    fn bound(&self, area: &Area, at: usize) -> f64 {
+        (self.least_ratio(at).0 - area.error).max(0.0).sqrt() * (1.0 - 4.0 * HALF_ULP)
+    }
+
+    fn judge(&mut self, area: &mut Area, at: usize) -> Verdict {
+        if self.all_beyond(at, self.proof.target_squared + area.error) {
+            return Verdict::Closed;
+        }
+        let wide = (area.s[1] - area.s[0]).max(area.t[1] - area.t[0]) >= LEAST_WIDTH;
+        if !self.proof.spend() || !wide {
+            return Verdict::GiveUp;
+        }
+        let (mut least, mut place) = self.least_ratio(at);
+        if area.age >= FRESH || (least > self.proof.target_squared && area.age > 0) {
+            if self.load(area, at) || self.all_beyond(at, self.proof.target_squared + area.error) {
+                return Verdict::Closed;
+            }
+            (least, place) = self.least_ratio(at);
+        }
+        if self.proof.best == f64::INFINITY {
+            let start = self.start(area, place);
+            self.iterate(area, start);
+            area.error += 8.0 * HALF_ULP * self.proof.target_squared;
+            if self.proof.is_trivial() {
+                return Verdict::Closed;
+            }
+        }
+        let weight = if self.sheet.net.rational { extent(self.c(at)).1 } else { 1.0 };
+        let slopes = self.slopes(area, at, least);
+        let allowance = 2.0 * area.error * weight;
+        for (k, (low, high)) in [slopes.s, slopes.t].into_iter().enumerate() {
+            if low > allowance || high < -allowance {
+                self.follow_side(area, at, if low > allowance { 2 * k } else { 2 * k + 1 });
+                return Verdict::Closed;
+            }
+        }
+        if self.turning(area, at, weight) || self.convex(area, at, place, weight) {
+            return Verdict::Closed;
+        }
+        self.probe(area, place);
+        let size = |(low, high): (f64, f64), n: usize| low.abs().max(high.abs()) * n as f64;
+        if size(slopes.s, self.degree.s) >= size(slopes.t, self.degree.t) {
+            Verdict::HalveS
+        } else {
+            Verdict::HalveT
+        }
+    }
+
+    /// Coefficients of `N - mu C` into half `part` of the scratch memory.
+    fn form(&mut self, at: usize, part: usize, mu: f64) {
+        let slot = &self.memory.coefficients[at * self.slot..(at + 1) * self.slot];
+        let (n, c) = slot.split_at(self.count);
+        let h = &mut self.memory.h[part * self.count..(part + 1) * self.count];
+        if c.is_empty() {
+            h.copy_from_slice(n);
+        } else {
+            for ((h, n), c) in h.iter_mut().zip(n).zip(c) {
+                *h = n - mu * c;
+            }
+        }
+    }
+
+    /// First differences of `h` over every squared distance that a nearest point in this area can have.
+    fn slopes(&mut self, area: &Area, at: usize, least: f64) -> Slopes {
+        let reach = self.proof.best + self.sheet.position;
+        self.form(at, 0, (least - area.error).max(0.0));
+        let parts = if self.sheet.net.rational { 2 } else { 1 };
+        if parts == 2 {
+            self.form(at, 1, reach * reach);
+        }
+        let mut slopes = Slopes { s: NOTHING, t: NOTHING };
+        let width = self.degree.t + 1;
+        for h in self.memory.h[..parts * self.count].chunks_exact(self.count) {
+            slopes.s = merged(slopes.s, differences(h, width));
+            for row in h.chunks_exact(width) {
+                slopes.t = merged(slopes.t, differences(row, 1));
+            }
+        }
+        slopes
+    }
+
+    /// Goes on along side `k` of the area, if that can hold the nearest point at all.
+    fn follow_side(&mut self, area: &Area, at: usize, k: usize) {
+        let ends = [area.s[0], area.s[1], area.t[0], area.t[1]];
+        let outer = ends[k] == self.sheet.range[k];
+        let collapsed = self.sheet.patch.collapsed[k] && ends[k] == [0.0, 1.0, 0.0, 1.0][k];
+        if !outer || !self.sheet.border[k] || collapsed {
+            return;
+        }
+        let along_s = k == side::T0 || k == side::T1;
+        let (range, first) = if along_s { (area.s, side::S0) } else { (area.t, side::T0) };
+        let border =
+            [0, 1].map(|e| self.sheet.border[first + e] && range[e] == self.sheet.range[first + e]);
+        let mut memory = std::mem::take(&mut self.memory.edge);
+        let p = self.edge_net(k, ends[k], &mut memory);
+        let components = if self.sheet.net.rational { 4 } else { 3 };
+        let (net, product) = memory.split_at_mut(4 * (MAX_DEGREE + 1));
+        let (n, c) = product.split_at_mut(2 * MAX_DEGREE + 1);
+        let (n, c) = (&mut n[..=2 * p], &mut c[..=2 * p]);
+        let rational = self.sheet.net.rational;
+        for i in 0..=2 * p {
+            let place = self.place_on_side(k, i);
+            n[i] = self.n(at)[place];
+            if rational {
+                c[i] = self.c(at)[place];
+            }
+        }
+        let (piece, fixed) = (self.sheet.piece, ends[k]);
+        let site = |x: f64| Site { piece, at: if along_s { [x, fixed] } else { [fixed, x] } };
+        let line = Line {
+            segment: BezierSegment { degree: p, rational, poles: &net[..components * (p + 1)] },
+            query: self.sheet.query,
+            position: self.sheet.position,
+            range,
+            border,
+            site: &site,
+            method: self.sheet.method,
+        };
+        let c = if rational { &c[..] } else { &[] };
+        let given = Given { n, c, error: area.error, radius: area.radius };
+        search_line(&line, Some(given), &mut self.memory.line, self.proof);
+        self.memory.edge = memory;
+    }
+
+    /// Index of product coefficient `i` along side `k`.
+    fn place_on_side(&self, k: usize, i: usize) -> usize {
+        let width = self.degree.t + 1;
+        match k {
+            side::S0 => i,
+            side::S1 => self.degree.s * width + i,
+            side::T0 => i * width,
+            _ => i * width + self.degree.t,
+        }
+    }
+
+    /// The poles of the isocurve on side `k` at parameter `x`, into `out`; returns its degree.
+    fn edge_net(&mut self, k: usize, x: f64, out: &mut [f64]) -> usize {
+        let degree = self.sheet.net.degree;
+        let (rows, columns) = (degree.s + 1, degree.t + 1);
+        let across_s = k == side::S0 || k == side::S1;
+        let size = if across_s { columns } else { rows };
+        for (component, edge) in
+            self.sheet.net.poles.chunks_exact(rows * columns).zip(out.chunks_exact_mut(size))
+        {
+            let work = &mut self.memory.net[..rows * columns];
+            work.copy_from_slice(component);
+            if across_s {
+                if x > 0.0 && x < 1.0 {
+                    cut(work, degree.s, columns, columns, 0.0, x);
+                }
+                let row = if x == 0.0 { 0 } else { degree.s };
+                edge.copy_from_slice(&work[row * columns..(row + 1) * columns]);
+            } else {
+                for (row, e) in work.chunks_exact_mut(columns).zip(edge) {
+                    if x > 0.0 && x < 1.0 {
+                        cut(row, degree.t, 1, 1, 0.0, x);
+                    }
+                    *e = row[if x == 0.0 { 0 } else { degree.t }];
+                }
+            }
+        }
+        size - 1
+    }
+
+    /// The Greville abscissae of coefficient `place`.
+    fn abscissa(&self, area: &Area, place: usize) -> [f64; 2] {
+        let width = self.degree.t + 1;
+        let s = (place / width) as f64 / self.degree.s as f64;
+        let t = (place % width) as f64 / self.degree.t as f64;
+        [area.s[0] + s * (area.s[1] - area.s[0]), area.t[0] + t * (area.t[1] - area.t[0])]
+    }
+
+    /// The best foot when it is inside, the Greville abscissae of coefficient `place` otherwise.
+    fn start(&self, area: &Area, place: usize) -> [f64; 2] {
+        let inside = |at: [f64; 2]| {
+            (area.s[0]..=area.s[1]).contains(&at[0]) && (area.t[0]..=area.t[1]).contains(&at[1])
+        };
+        match self.proof.site {
+            Some(site) if site.piece == self.sheet.piece && inside(site.at) => site.at,
+            _ => self.abscissa(area, place),
+        }
+    }
+
+    /// Looks at one point of an area that is not closed yet, and iterates from it when it is nearer than the
+    /// target: a target far too high makes `h` concave (by its term in C), and no test could ever close.
+    fn probe(&mut self, area: &Area, place: usize) {
+        let at = self.abscissa(area, place);
+        let jet = self.sheet.net.jet(at[0], at[1], self.sheet.query);
+        self.proof.evaluations += 1;
+        if norm(jet.d) < self.proof.target {
+            self.iterate(area, at);
+        }
+    }
+
+    fn iterate(&mut self, area: &Area, start: [f64; 2]) -> ([f64; 2], Jet2) {
+        let range = [area.s[0], area.s[1], area.t[0], area.t[1]];
+        let surface = (self.sheet.net, self.sheet.query);
+        let piece = self.sheet.piece;
+        let (at, jet, taken) = match &mut self.proof.trace {
+            None => foot_on_surface(&surface, start, range, self.sheet.method, None),
+            Some(watch) => {
+                let mut tell =
+                    |step: u32, s: f64, t: f64, d: f64| watch(step, Site { piece, at: [s, t] }, d);
+                foot_on_surface(&surface, start, range, self.sheet.method, Some(&mut tell))
+            }
+        };
+        self.proof.evaluations += taken;
+        self.proof.offer(Site { piece: self.sheet.piece, at }, norm(jet.d));
+        (at, jet)
+    }
+
+    /// Whether convexity and the first-order conditions at the iteration's result prove the target.
+    fn convex(&mut self, area: &Area, at: usize, place: usize, weight: f64) -> bool {
+        if self.curvature(area, at, weight).is_none() {
+            return false;
+        }
+        let start = self.start(area, place);
+        let (found, jet) = self.iterate(area, start);
+        match self.curvature(area, at, weight) {
+            Some(m) => self.first_order(area, found, &jet, m),
+            None => false,
+        }
+    }
+
+    /// Lower bounds `a`, `c` of the pure second derivatives of `h` at the target and an upper bound `b` of the
+    /// mixed one, in the area's unit parameters, when `a c > b^2`: then `h` is convex.
+    fn curvature(&mut self, area: &Area, at: usize, weight: f64) -> Option<[f64; 3]> {
+        self.form(at, 0, self.proof.target_squared);
+        let h = &self.memory.h[..self.count];
+        let (n, m) = (self.degree.s as f64, self.degree.t as f64);
+        let width = self.degree.t + 1;
+        let allowance = 4.0 * area.error * weight;
+        let (mut a, mut c, mut b) = (f64::INFINITY, f64::INFINITY, 0.0f64);
+        for (r0, (r1, r2)) in h
+            .chunks_exact(width)
+            .zip(h[width..].chunks_exact(width).zip(h[2 * width..].chunks_exact(width)))
+        {
+            for j in 0..width {
+                let d = (r2[j] - r1[j]) - (r1[j] - r0[j]);
+                a = if d < a { d } else { a };
+            }
+        }
+        let a = n * (n - 1.0) * (a - allowance);
+        if a.is_nan() || a <= 0.0 {
+            return None;
+        }
+        for row in h.chunks_exact(width) {
+            for w in row.windows(3) {
+                let d = (w[2] - w[1]) - (w[1] - w[0]);
+                c = if d < c { d } else { c };
+            }
+        }
+        let c = m * (m - 1.0) * (c - allowance);
+        if c.is_nan() || c <= 0.0 {
+            return None;
+        }
+        for (r0, r1) in h.chunks_exact(width).zip(h[width..].chunks_exact(width)) {
+            for j in 0..width - 1 {
+                let d = ((r1[j + 1] - r1[j]) - (r0[j + 1] - r0[j])).abs();
+                b = if d > b { d } else { b };
+            }
+        }
+        let b = n * m * (b + allowance);
+        (a * c * (1.0 - 1e-12) > b * b).then_some([a, b, c])
+    }
+
+    /// `h >= h(u) - g.M^-1.g / 2` on the area, with `M = [[a, -b], [-b, c]]` the worst Hessian for the slope's signs.
+    fn first_order(&self, area: &Area, at: [f64; 2], jet: &Jet2, [a, b, c]: [f64; 3]) -> bool {
+        let (d, w, position) = (norm(jet.d), jet.w[0], self.sheet.position);
+        let value = value_at(d, w, position, self.proof);
+        let excess = dot(jet.d, jet.d) - self.proof.target_squared;
+        let gradient = jet.gradient();
+        let degrees = [self.sheet.net.degree.s, self.sheet.net.degree.t];
+        let slope = |k: usize, box_: [f64; 2], speed: f64| {
+            let width = box_[1] - box_[0];
+            let g = 2.0 * w * (jet.w[k + 1] * excess + w * gradient[k]) * width;
+            let slack = slope_error(d, speed, w, position, degrees[k]) * width;
+            free_slope(g, slack, at[k] <= box_[0], at[k] >= box_[1])
+        };
+        let x = slope(0, area.s, norm(jet.s));
+        let y = slope(1, area.t, norm(jet.t));
+        let loss = (c * x * x + 2.0 * b * x * y + a * y * y) / (a * c - b * b);
+        value > 0.0 && loss <= 2.0 * value * (1.0 - 1e-10)
+    }
+
+    /// At a collapsed side: whether the distance changes strictly along the side everywhere off it.
+    ///
+    /// With `f = N / C` the sign of `f_s` is that of `W N_s - 2 N W_s`, whose first row of coefficients vanishes
+    /// on the side; all the others must keep one sign. Then only the collapsed point or a border can be nearest.
+    fn turning(&mut self, area: &Area, at: usize, weight: f64) -> bool {
+        let ends = [area.s[0], area.s[1], area.t[0], area.t[1]];
+        let touched =
+            (0..4).find(|&k| self.sheet.patch.collapsed[k] && ends[k] == [0.0, 1.0, 0.0, 1.0][k]);
+        let Some(k) = touched else { return false };
+        let direction = if k >= side::T0 { 0 } else { 1 };
+        let Some(sign) = self.turning_sign(area, at, k, direction, weight) else { return false };
+        self.follow_side(area, at, 2 * direction + usize::from(sign < 0.0));
+        true
+    }
+
+    /// The sign of `f` along `direction` off the collapsed side `k`, when it is strict.
+    fn turning_sign(
+        &mut self,
+        area: &Area,
+        at: usize,
+        k: usize,
+        direction: usize,
+        weight: f64,
+    ) -> Option<f64> {
+        let mut memory = std::mem::take(&mut self.memory.turning);
+        let (low, high, allowance) =
+            self.turning_extent(area, at, k, direction, weight, &mut memory);
+        self.memory.turning = memory;
+        if low > allowance { Some(1.0) } else { (high < -allowance).then_some(-1.0) }
+    }
+
+    fn turning_extent(
+        &mut self,
+        area: &Area,
+        at: usize,
+        k: usize,
+        direction: usize,
+        weight: f64,
+        memory: &mut Vec<f64>,
+    ) -> (f64, f64, f64) {
+        let slope_degree = lowered(self.degree, direction);
+        let slope_n = derivative(self.n(at), self.degree, direction);
+        let n_degree = if direction == 0 { self.degree.s } else { self.degree.t } as f64;
+        if !self.sheet.net.rational {
+            let (low, high) = extent_off_side(&slope_n, slope_degree, k);
+            return (low, high, 2.0 * n_degree * area.error);
+        }
+        let net_degree = self.sheet.net.degree;
+        let w = self.weights_on(area);
+        let slope_w = derivative(&w, net_degree, direction);
+        let total = slope_degree.times(net_degree);
+        memory.clear();
+        memory.resize(total.count(), 0.0);
+        let mut up = |f: &[f64], df: Bidegree, g: &[f64], dg: Bidegree, sign: f64| {
+            let (mut f, mut g) = (f.to_vec(), g.to_vec());
+            scale_up_2d(&mut f, df);
+            scale_up_2d(&mut g, dg);
+            convolve(&f, df, &g, dg, sign, memory);
+        };
+        up(&slope_n, slope_degree, &w, net_degree, 1.0);
+        up(self.n(at), self.degree, &slope_w, lowered(net_degree, direction), -2.0);
+        scale_down_2d(memory, total);
+        let (low, high) = extent_off_side(memory, total, k);
+        let greatest = extent(&w).1;
+        let steps = product_steps(2 * net_degree.count());
+        let size = area.radius * area.radius * weight;
+        let allowance = 8.0 * n_degree * greatest * (area.error * weight + steps * size);
+        (low, high, allowance)
+    }
+
+    /// Coefficients of W on the area.
+    fn weights_on(&self, area: &Area) -> Vec<f64> {
+        let degree = self.sheet.net.degree;
+        let mut w = self.sheet.net.poles[3 * degree.count()..].to_vec();
+        cut_area(&mut w, degree, area);
+        w
+    }
+
+    /// Rebuilds the coefficients of slot `at` from the poles; true when a plane already separates the query.
+    fn load(&mut self, area: &mut Area, at: usize) -> bool {
+        let degree = self.sheet.net.degree;
+        let count = degree.count();
+        let components = if self.sheet.net.rational { 4 } else { 3 };
+        let net = &mut self.memory.net[..4 * count];
+        net[..components * count].copy_from_slice(self.sheet.net.poles);
+        net[components * count..].fill(1.0);
+        for component in net[..components * count].chunks_exact_mut(count) {
+            cut_area(component, degree, area);
+        }
+        let radius = subtract_query(net, count, self.sheet.query);
+        if self.proof.target.is_finite()
+            && plane_separates(net, count, self.proof.target, self.sheet.position)
+        {
+            return true;
+        }
+        square(net, degree, &mut self.memory.coefficients[at * self.slot..(at + 1) * self.slot]);
+        self.set_error(area, radius, 3 * count);
+        false
+    }
+
+    fn halve(&mut self, area: Area, at: usize, direction: usize) {
+        let (low, high) =
+            self.memory.coefficients[at * self.slot..(at + 2) * self.slot].split_at_mut(self.slot);
+        for (a, b) in low.chunks_exact_mut(self.count).zip(high.chunks_exact_mut(self.count)) {
+            if direction == 0 { halve_s(a, b, self.degree) } else { halve_t(a, b, self.degree) }
+        }
+        let n = if direction == 0 { self.degree.s } else { self.degree.t };
+        let growth = 2.0 * HALF_ULP * n as f64 * area.radius * area.radius;
+        let child = Area { error: area.error + growth, age: area.age + 1, ..area };
+        let mut pair = [child; 2];
+        if direction == 0 {
+            let middle = 0.5 * (area.s[0] + area.s[1]);
+            (pair[0].s[1], pair[1].s[0]) = (middle, middle);
+        } else {
+            let middle = 0.5 * (area.t[0] + area.t[1]);
+            (pair[0].t[1], pair[1].t[0]) = (middle, middle);
+        }
+        if self.least_ratio(at).0 < self.least_ratio(at + 1).0 {
+            // The more promising half goes on top.
+            let (low, high) = self.memory.coefficients[at * self.slot..(at + 2) * self.slot]
+                .split_at_mut(self.slot);
+            low.swap_with_slice(high);
+            pair.swap(0, 1);
+        }
+        self.memory.waiting.extend(pair);
+    }
+}
+
+const NOTHING: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
+
+fn merged(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
+    (a.0.min(b.0), a.1.max(b.1))
+}
+
+/// Least and greatest of `h[k + step] - h[k]`.
+fn differences(h: &[f64], step: usize) -> (f64, f64) {
+    let (mut low, mut high) = NOTHING;
+    for (a, b) in h.iter().zip(&h[step..]) {
+        let d = b - a;
+        low = if d < low { d } else { low };
+        high = if d > high { d } else { high };
+    }
+    (low, high)
+}
+
+fn cut_area(component: &mut [f64], degree: Bidegree, area: &Area) {
+    let width = degree.t + 1;
+    cut(component, degree.s, width, width, area.s[0], area.s[1]);
+    if area.t != [0.0, 1.0] {
+        for row in component.chunks_exact_mut(width) {
+            cut(row, degree.t, 1, 1, area.t[0], area.t[1]);
+        }
+    }
+}
+
+fn lowered(degree: Bidegree, direction: usize) -> Bidegree {
+    if direction == 0 {
+        Bidegree { s: degree.s - 1, ..degree }
+    } else {
+        Bidegree { t: degree.t - 1, ..degree }
+    }
+}
+
+/// Bernstein coefficients of a partial derivative.
+fn derivative(f: &[f64], degree: Bidegree, direction: usize) -> Vec<f64> {
+    let width = degree.t + 1;
+    if direction == 0 {
+        let n = degree.s as f64;
+        return f.iter().zip(&f[width..]).map(|(a, b)| n * (b - a)).collect();
+    }
+    let n = degree.t as f64;
+    f.chunks_exact(width).flat_map(|row| row.windows(2).map(move |w| n * (w[1] - w[0]))).collect()
+}
+
+/// Extent of the coefficients that do not belong to side `k`.
+fn extent_off_side(f: &[f64], degree: Bidegree, k: usize) -> (f64, f64) {
+    let width = degree.t + 1;
+    let on_side = |i: usize, j: usize| [i == 0, i == degree.s, j == 0, j == degree.t][k];
+    let mut found = NOTHING;
+    for (index, &x) in f.iter().enumerate() {
+        if !on_side(index / width, index % width) {
+            found = merged(found, (x, x));
+        }
+    }
+    found
+}

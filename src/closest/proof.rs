@@ -1,0 +1,107 @@
+//! The state of one query: the best foot so far, what is proven, what was given up.
+
+use crate::bounds::HALF_ULP;
+
+/// Where the best foot lies: a piece and its local parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Site {
+    /// Segment or patch.
+    pub piece: usize,
+    /// Local parameters, each in [0, 1].
+    pub at: [f64; 2],
+}
+
+/// The certificate under construction. Lengths are in the index's coordinates.
+///
+/// Everything that is pruned has a distance of at least the target of its time; the target only falls, so at the
+/// end nothing is nearer than `min(target, lower)`.
+pub struct Proof<'t> {
+    /// Asked-for gap between the distance and its bound.
+    pub gap: f64,
+    /// Least distance found.
+    pub best: f64,
+    /// Where.
+    pub site: Option<Site>,
+    /// What must be proven everywhere: `best - gap`, at least zero.
+    pub target: f64,
+    /// An upper bound of the target's square.
+    pub target_squared: f64,
+    /// Least bound of all boxes that were given up.
+    pub lower: f64,
+    /// Greatest displacement of the nets visited (collapsed edges made exact).
+    pub spread: f64,
+    /// Boxes looked at, of `budget`.
+    pub spent: u64,
+    /// Most boxes.
+    pub budget: u64,
+    /// Evaluations of the shape.
+    pub evaluations: u32,
+    /// Whether the budget ran out.
+    pub exhausted: bool,
+    /// Told of each iteration: step, place, distance.
+    pub trace: Option<Watch<'t>>,
+}
+
+/// Called with (step, place, distance) for each step of each local iteration.
+pub type Watch<'t> = &'t mut dyn FnMut(u32, Site, f64);
+
+impl<'t> Proof<'t> {
+    /// Nothing found, nothing proven.
+    pub fn new(gap: f64, budget: u64, trace: Option<Watch<'t>>) -> Self {
+        Self {
+            gap,
+            best: f64::INFINITY,
+            site: None,
+            target: f64::INFINITY,
+            target_squared: f64::INFINITY,
+            lower: f64::INFINITY,
+            spread: 0.0,
+            spent: 0,
+            budget,
+            evaluations: 0,
+            exhausted: false,
+            trace,
+        }
+    }
+
+    /// Takes a foot that is nearer than the best; tells whether it was.
+    pub fn offer(&mut self, site: Site, distance: f64) -> bool {
+        if distance.is_nan() || distance >= self.best {
+            return false;
+        }
+        self.best = distance;
+        self.site = Some(site);
+        self.target = (distance - self.gap).max(0.0);
+        self.target_squared = self.target * self.target * (1.0 + 8.0 * HALF_ULP);
+        true
+    }
+
+    /// Whether nothing is left to prove: every shape is at least zero away.
+    pub fn is_trivial(&self) -> bool {
+        self.target == 0.0
+    }
+
+    /// Gives up a part of the shape whose distance is at least `bound`.
+    pub fn give_up(&mut self, bound: f64) {
+        self.lower = self.lower.min(bound);
+    }
+
+    /// Counts one box; false when the budget is gone.
+    pub fn spend(&mut self) -> bool {
+        self.spent += 1;
+        self.exhausted |= self.spent > self.budget;
+        !self.exhausted
+    }
+
+    /// The bound proven by a walk that ended.
+    pub fn proven(&self) -> f64 {
+        (self.target.min(self.lower) - self.spread).max(0.0)
+    }
+}
+
+/// Rounding of the coefficients of `N = |r|^2` relative to those of `C = W^2`, as a squared length.
+///
+/// `position` is how far `r / W` may be off, `radius` bounds its length, `steps` counts half ulps of the products.
+pub fn squared_error(position: f64, radius: f64, steps: f64) -> f64 {
+    (2.0 * radius + position) * position + steps * radius * radius
+}

@@ -1,0 +1,339 @@
+//! Nearest point of a surface.
+
+use super::local::{LOCAL_FLAGS, WholeSurface, surface_start};
+use super::patch::{PatchMemory, Sheet, search_patch};
+use super::proof::{Proof, Site, Watch};
+use super::{
+    FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, distance, flag, is_bad,
+    mark_inversion, rounding_floor,
+};
+use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, sub};
+use crate::error::Error;
+use crate::index::{IndexedSurface, SurfaceIndex, position_error, position_steps};
+use crate::knots::Knots;
+use crate::refine::{Trace, foot_on_surface};
+
+use super::curve::LEAST_CREASE;
+
+impl IndexedSurface {
+    /// The nearest point of the surface to `query`, with proof.
+    ///
+    /// `hint` is a parameter pair near the foot, if the caller knows one; it changes the time, not the distance.
+    /// A query that is not finite gives [`FootPoint::bad_query`]; memory that cannot be had for the index gives
+    /// [`FootPoint::unreached`]. Cost: a few microseconds.
+    pub fn closest(
+        &self,
+        query: Vector,
+        hint: Option<[f64; 2]>,
+        options: &QueryOptions,
+        workspace: &mut Workspace,
+        trace: Option<Trace>,
+    ) -> FootPoint {
+        if is_bad(query) {
+            return FootPoint::bad_query();
+        }
+        let Ok(index) = self.index(&mut || false) else { return FootPoint::unreached() };
+        match options.scope {
+            Scope::Local => self.local(index, query, hint, options, trace),
+            Scope::Global => self.global(index, query, hint, options, workspace, trace),
+        }
+    }
+
+    /// As [`Self::closest`], for a query that should lie on the surface: beyond the tolerance the foot is marked
+    /// [`flag::NOT_ON_SHAPE`].
+    pub fn invert(
+        &self,
+        query: Vector,
+        hint: Option<[f64; 2]>,
+        options: &QueryOptions,
+        workspace: &mut Workspace,
+        trace: Option<Trace>,
+    ) -> FootPoint {
+        let mut foot = self.closest(query, hint, options, workspace, trace);
+        if let (Ok(index), true) = (self.index(&mut || false), foot.distance.is_finite()) {
+            mark_inversion(&mut foot, options.tolerance(&index.frame));
+        }
+        foot
+    }
+
+    /// Whether a restriction u0, u1, v0, v1 lies in the domain, with u0 < u1 and v0 < v1.
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] naming the entry.
+    pub fn check_domain(&self, domain: [f64; 4]) -> Result<(), Error> {
+        let [u0, u1, v0, v1] = self.surface().domain();
+        super::check_range("domain", 0, [domain[0], domain[1]], (u0, u1))?;
+        super::check_range("domain", 2, [domain[2], domain[3]], (v0, v1))
+    }
+
+    fn range(&self, options: &QueryOptions) -> [f64; 4] {
+        let [u0, u1, v0, v1] = self.surface().domain();
+        options
+            .domain
+            .map_or([u0, u1, v0, v1], |d| [d[0].max(u0), d[1].min(u1), d[2].max(v0), d[3].min(v1)])
+    }
+
+    fn local(
+        &self,
+        index: &SurfaceIndex,
+        query: Vector,
+        hint: Option<[f64; 2]>,
+        options: &QueryOptions,
+        trace: Option<Trace>,
+    ) -> FootPoint {
+        let start = hint.unwrap_or_else(|| surface_start(index, index.frame.enter(query)));
+        let surface = WholeSurface { surface: self.surface(), query };
+        let (at, _, taken) =
+            foot_on_surface(&surface, start, self.range(options), options.method, trace);
+        let mut foot = self.foot_at(index, query, at);
+        foot.flags |= LOCAL_FLAGS | if hint.is_some() { flag::HINT_USED } else { 0 };
+        foot.iterations = taken;
+        foot
+    }
+
+    fn global(
+        &self,
+        index: &SurfaceIndex,
+        query: Vector,
+        hint: Option<[f64; 2]>,
+        options: &QueryOptions,
+        workspace: &mut Workspace,
+        mut trace: Option<Trace>,
+    ) -> FootPoint {
+        let traced = trace.is_some();
+        let q = index.frame.enter(query);
+        let steps = position_steps(index.degree.s + index.degree.t);
+        let worst = position_error(steps, 2.0, norm(q) + 2.0, norm(q));
+        let allowed =
+            options.accuracy(&index.frame).max(rounding_floor(&index.frame, query, worst));
+        let coefficients = index.degree.times(index.degree).count();
+        let budget = if options.budget > 0 { options.budget } else { default_budget(coefficients) };
+        let search = SurfaceSearch { index, query: q, range: self.range(options), options, steps };
+        let mut tell = |step: u32, site: Site, d: f64| {
+            if let Some(trace) = &mut trace {
+                let [u, v] = search.parameters(site);
+                trace(step, u, v, d / index.frame.scale);
+            }
+        };
+        let watch: Option<Watch> = if traced { Some(&mut tell) } else { None };
+        let mut proof = Proof::new(0.5 * allowed * index.frame.scale, budget, watch);
+        if let Some(at) = hint {
+            search.start_at(at, &mut proof);
+        }
+        search.walk(workspace, &mut proof);
+        let Some(site) = proof.site else { return FootPoint::unreached() };
+        let mut foot = self.foot_at(index, query, search.parameters(site));
+        certify(&mut foot, &proof, &index.frame, allowed);
+        if hint.is_some() {
+            foot.flags |= flag::HINT_USED;
+        }
+        foot
+    }
+
+    /// The record at a parameter pair, with the flags of the place.
+    fn foot_at(&self, index: &SurfaceIndex, query: Vector, at: [f64; 2]) -> FootPoint {
+        let surface = self.surface();
+        let ([u0, u1, v0, v1], mut at) = (surface.domain(), at);
+        let mut point = surface.evaluate(at[0], at[1]);
+        let closed = index.closed;
+        let (first, last) = ([u0, v0], [u1, v1]);
+        for k in 0..2 {
+            if closed[k] && at[k] == last[k] {
+                // The canonical parameter of a seam is the start, when it is as near.
+                let mut start = at;
+                start[k] = first[k];
+                let there = surface.evaluate(start[0], start[1]);
+                let floor = rounding_floor(&index.frame, query, 0.0);
+                if distance(query, there) <= distance(query, point) + floor {
+                    (at, point) = (start, there);
+                }
+            }
+        }
+        let on = [at[0] == u0, at[0] == u1, at[1] == v0, at[1] == v1];
+        FootPoint {
+            u: at[0],
+            v: at[1],
+            point,
+            distance: distance(query, point),
+            lower_bound: 0.0,
+            flags: place_flags(on, closed, index.collapsed)
+                | self.crease_flag(index, at, closed),
+            iterations: 0,
+        }
+    }
+
+    /// [`flag::CREASE`] where the tangent plane breaks across a knot line of multiplicity >= degree, or across a
+    /// seam.
+    fn crease_flag(&self, index: &SurfaceIndex, at: [f64; 2], closed: [bool; 2]) -> u32 {
+        let surface = self.surface();
+        let [u0, u1, v0, v1] = surface.domain();
+        let breaks = |knots: &Knots, x: f64, ends: [f64; 2], closed: bool| {
+            let at_end = x == ends[0] || x == ends[1];
+            if at_end { closed } else { knots.multiplicity(x) >= knots.degree() }
+        };
+        let in_u = breaks(surface.knots_u(), at[0], [u0, u1], closed[0]);
+        let in_v = breaks(surface.knots_v(), at[1], [v0, v1], closed[1]);
+        let bent = (in_u && index.normals_differ(at, 0)) || (in_v && index.normals_differ(at, 1));
+        if bent { flag::CREASE } else { 0 }
+    }
+}
+
+fn place_flags(on: [bool; 4], closed: [bool; 2], collapsed: [bool; 4]) -> u32 {
+    let (in_u, in_v) = (on[0] || on[1], on[2] || on[3]);
+    let mut flags = 0;
+    if in_u || in_v {
+        flags |= flag::EDGE;
+    }
+    if in_u && in_v {
+        flags |= flag::CORNER;
+    }
+    if (in_u && closed[0]) || (in_v && closed[1]) {
+        flags |= flag::SEAM;
+    }
+    if (0..4).any(|k| on[k] && collapsed[k]) {
+        flags |= flag::COLLAPSED;
+    }
+    flags
+}
+
+impl SurfaceIndex {
+    /// The pieces before and after `x` in direction `k`, of those that hold the other parameter; across the seam
+    /// at the ends of the domain.
+    fn normals_differ(&self, at: [f64; 2], k: usize) -> bool {
+        let ends = |piece: usize, k: usize| {
+            if k == 0 { self.patches[piece].u } else { self.patches[piece].v }
+        };
+        let (rows, columns) = (self.patches.len() / self.columns, self.columns);
+        let stride = [columns, 1][k];
+        let count = [rows, columns][k];
+        let other_count = [rows, columns][1 - k];
+        let other_stride = [columns, 1][1 - k];
+        let other = (0..other_count)
+            .position(|i| at[1 - k] < ends(i * other_stride, 1 - k)[1])
+            .unwrap_or(other_count - 1);
+        let base = other * other_stride;
+        let after = (0..count).find(|&i| ends(base + i * stride, k)[0] == at[k]);
+        let (before, after) = match after {
+            Some(0) | None => (count - 1, 0),
+            Some(i) => (i - 1, i),
+        };
+        let [x0, x1] = ends(base, 1 - k);
+        let x = (at[1 - k] - x0) / (x1 - x0);
+        let normal = |piece: usize, y: f64| {
+            let (s, t) = if k == 0 { (y, x) } else { (x, y) };
+            let jet = self.net(piece).jet(s, t, [0.0; 3]);
+            cross(jet.s, jet.t)
+        };
+        let a = normal(base + before * stride, 1.0);
+        let b = normal(base + after * stride, 0.0);
+        let size = norm(a) * norm(b);
+        size > 0.0 && (norm(cross(a, b)) > LEAST_CREASE * size || dot(a, b) < 0.0)
+    }
+}
+
+/// One global search on a surface.
+struct SurfaceSearch<'a> {
+    index: &'a SurfaceIndex,
+    query: Vector,
+    range: [f64; 4],
+    options: &'a QueryOptions,
+    steps: f64,
+}
+
+/// The part of [a, b] that a restriction leaves, in local parameters; `None` when it leaves nothing.
+fn local_interval([a, b]: [f64; 2], [low, high]: [f64; 2]) -> Option<[f64; 2]> {
+    let local = |x: f64| {
+        if x <= a {
+            0.0
+        } else if x >= b {
+            1.0
+        } else {
+            (x - a) / (b - a)
+        }
+    };
+    let range = [local(low), local(high)];
+    (range[0] < range[1]).then_some(range)
+}
+
+impl SurfaceSearch<'_> {
+    fn local_range(&self, k: usize) -> Option<[f64; 4]> {
+        let patch = &self.index.patches[k];
+        let s = local_interval(patch.u, [self.range[0], self.range[1]])?;
+        let t = local_interval(patch.v, [self.range[2], self.range[3]])?;
+        Some([s[0], s[1], t[0], t[1]])
+    }
+
+    /// The caller's parameters of a place; ends of patches come out exactly, and nothing leaves the restriction.
+    fn parameters(&self, site: Site) -> [f64; 2] {
+        let patch = &self.index.patches[site.piece];
+        let outer = |[a, b]: [f64; 2], s: f64| match s {
+            0.0 => a,
+            1.0 => b,
+            s => a + s * (b - a),
+        };
+        [
+            outer(patch.u, site.at[0]).clamp(self.range[0], self.range[1]),
+            outer(patch.v, site.at[1]).clamp(self.range[2], self.range[3]),
+        ]
+    }
+
+    fn start_at(&self, at: [f64; 2], proof: &mut Proof) {
+        let at =
+            [at[0].clamp(self.range[0], self.range[1]), at[1].clamp(self.range[2], self.range[3])];
+        let rows = self.index.patches.len() / self.index.columns;
+        let row = (0..rows - 1)
+            .collect::<Vec<_>>()
+            .partition_point(|&i| self.index.patches[i * self.index.columns].u[1] <= at[0]);
+        let column =
+            self.index.patches[..self.index.columns - 1].partition_point(|p| p.v[1] <= at[1]);
+        let k = row * self.index.columns + column;
+        let Some(range) = self.local_range(k) else { return };
+        let patch = &self.index.patches[k];
+        let view = (self.index.net(k), sub(self.query, patch.center));
+        let start = [
+            (at[0] - patch.u[0]) / (patch.u[1] - patch.u[0]),
+            (at[1] - patch.v[0]) / (patch.v[1] - patch.v[0]),
+        ];
+        let (at, jet, taken) = foot_on_surface(&view, start, range, self.options.method, None);
+        proof.evaluations += taken;
+        proof.offer(Site { piece: k, at }, norm(jet.d));
+    }
+
+    fn walk(&self, workspace: &mut Workspace, proof: &mut Proof) {
+        let slack = 16.0 * HALF_ULP * (2.0 + norm(self.query));
+        let limit = |proof: &Proof| {
+            let reach = proof.target + slack;
+            reach * reach * (1.0 + 32.0 * HALF_ULP)
+        };
+        self.index.tree.start(&mut workspace.queue);
+        while let Some(next) = workspace.queue.pop() {
+            if proof.is_trivial() || next.key > limit(proof) {
+                return;
+            }
+            match next.piece() {
+                None => self.index.tree.open(next, self.query, limit(proof), &mut workspace.queue),
+                Some(k) => self.search(k, &mut workspace.patch, proof),
+            }
+        }
+    }
+
+    fn search(&self, k: usize, memory: &mut PatchMemory, proof: &mut Proof) {
+        let Some(range) = self.local_range(k) else { return };
+        let patch = &self.index.patches[k];
+        let query = sub(self.query, patch.center);
+        let position = position_error(self.steps, patch.radius, norm(query), norm(self.query));
+        let cut = [range[0] > 0.0, range[1] < 1.0, range[2] > 0.0, range[3] < 1.0];
+        let sheet = Sheet {
+            net: self.index.net(k),
+            patch,
+            piece: k,
+            tensors: self.index.tensors(k),
+            query,
+            position,
+            range,
+            border: [0, 1, 2, 3].map(|e| patch.border[e] || cut[e]),
+            method: self.options.method,
+        };
+        search_patch(&sheet, memory, proof);
+    }
+}

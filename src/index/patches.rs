@@ -1,0 +1,273 @@
+//! The index of a surface: its Bezier patches.
+
+use super::piece::{
+    Frame, LocalNet, MAX_TENSOR_BYTES, position_steps, push_tensors, reserved, tensor_len,
+};
+use crate::bezier::{Bidegree, extraction};
+use crate::bounds::{Aabb, HALF_ULP, Vector, add, norm, sub};
+use crate::error::Error;
+use crate::jet::BezierPatch;
+use crate::knots::Knots;
+use crate::surface::Surface;
+use crate::tree::Tree;
+
+/// A collapsed edge whose poles spread by more than this share of the box diagonal is searched as the tiny edge
+/// that it is; below it, the poles are made to coincide, at the price of that much in every bound.
+pub const MOST_SPREAD: f64 = 1e-12;
+
+/// The four sides of a patch, as indices of its `border` and `collapsed` arrays.
+pub mod side {
+    /// s = 0.
+    pub const S0: usize = 0;
+    /// s = 1.
+    pub const S1: usize = 1;
+    /// t = 0.
+    pub const T0: usize = 2;
+    /// t = 1.
+    pub const T1: usize = 3;
+}
+
+/// One Bezier patch; its numbers are in [`SurfaceIndex`]'s arrays.
+#[derive(Clone, Debug)]
+pub struct Patch {
+    /// Parameters at s = 0 and s = 1.
+    pub u: [f64; 2],
+    /// Parameters at t = 0 and t = 1.
+    pub v: [f64; 2],
+    /// Origin of the patch's coordinates, in the index's coordinates.
+    pub center: Vector,
+    /// Greatest distance of a pole from `center`.
+    pub radius: f64,
+    /// Whether a least distance may sit on this side with a gradient: a border of the domain or a C0 knot line.
+    pub border: [bool; 4],
+    /// Whether this side is a collapsed edge; its poles then coincide exactly (see `spread`).
+    pub collapsed: [bool; 4],
+    /// How far the net was moved to make its collapsed edges exact.
+    pub spread: f64,
+}
+
+/// Search structure of a surface.
+#[derive(Debug)]
+pub struct SurfaceIndex {
+    /// Map from the caller's coordinates.
+    pub frame: Frame,
+    /// The patches; (a, b) at `a * columns + b`.
+    pub patches: Vec<Patch>,
+    /// Boxes of the patches.
+    pub tree: Tree,
+    /// Degrees of the patches.
+    pub degree: Bidegree,
+    /// Whether weights are there.
+    pub rational: bool,
+    /// Number of patches in v.
+    pub columns: usize,
+    /// Whether the surface is closed in u, in v.
+    pub closed: [bool; 2],
+    /// Whether the edges u0, u1, v0, v1 are collapsed.
+    pub collapsed: [bool; 4],
+    nets: Vec<f64>,
+    tensors: Vec<f64>,
+}
+
+/// One direction's spans with their extraction matrices.
+struct Direction {
+    spans: Vec<usize>,
+    matrices: Vec<f64>,
+    size: usize,
+}
+
+impl Direction {
+    fn new(knots: &Knots) -> Self {
+        let spans: Vec<usize> = knots.spans().collect();
+        let size = knots.degree() + 1;
+        let mut matrices = vec![0.0; spans.len() * size * size];
+        for (matrix, &span) in matrices.chunks_exact_mut(size * size).zip(&spans) {
+            extraction(knots, span, matrix);
+        }
+        Self { spans, matrices, size }
+    }
+
+    fn matrix(&self, k: usize) -> &[f64] {
+        let n = self.size * self.size;
+        &self.matrices[k * n..(k + 1) * n]
+    }
+}
+
+impl SurfaceIndex {
+    /// Builds the index; `poll` is asked now and then whether to stop.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`], [`Error::Cancelled`].
+    pub fn new(surface: &Surface, poll: &mut dyn FnMut() -> bool) -> Result<Self, Error> {
+        let rational = surface.is_rational();
+        let (u, v) = (Direction::new(surface.knots_u()), Direction::new(surface.knots_v()));
+        let degree = Bidegree { s: u.size - 1, t: v.size - 1 };
+        let (rows, columns) = (u.spans.len(), v.spans.len());
+        let (count, width) = (rows * columns, degree.count() * if rational { 4 } else { 3 });
+        let tensor_width = tensor_len(degree, rational);
+        let keep_tensors = count * tensor_width * 8 <= MAX_TENSOR_BYTES || tensor_width <= 1125;
+        let mut index = Self {
+            frame: Frame::new(surface.poles(), surface.bounding_box()),
+            patches: reserved(count)?,
+            tree: Tree::new(&[], 0, 0),
+            degree,
+            rational,
+            columns,
+            closed: [surface.is_closed_u(), surface.is_closed_v()],
+            collapsed: surface.collapsed_edges(),
+            nets: reserved(count * width)?,
+            tensors: reserved(if keep_tensors { count * tensor_width } else { 0 })?,
+        };
+        let mut boxes = reserved(count)?;
+        let exact = |k: usize| surface.collapsed_spread(k) <= MOST_SPREAD * index.frame.diagonal;
+        let edges = [0, 1, 2, 3].map(|k| index.collapsed[k] && exact(k));
+        for k in 0..count {
+            if k % 256 == 255 && poll() {
+                return Err(Error::Cancelled);
+            }
+            let (a, b) = (k / columns, k % columns);
+            let at_side = [a == 0, a + 1 == rows, b == 0, b + 1 == columns];
+            let collapsed = [0, 1, 2, 3].map(|k| at_side[k] && edges[k]);
+            boxes.push(index.push_patch(surface, (&u, a), (&v, b), collapsed));
+            if keep_tensors {
+                let net = &index.nets[k * width..];
+                push_tensors(net, degree, rational, &mut index.tensors);
+            }
+        }
+        index.tree = Tree::new(&boxes, rows, columns);
+        Ok(index)
+    }
+
+    fn push_patch(
+        &mut self,
+        surface: &Surface,
+        (u, a): (&Direction, usize),
+        (v, b): (&Direction, usize),
+        collapsed: [bool; 4],
+    ) -> Aabb {
+        let net = self.local_net(surface, u.spans[a], v.spans[b]);
+        let start = self.nets.len();
+        let components = if self.rational { 4 } else { 3 };
+        for component in &net.components[..components] {
+            extract(component, u.matrix(a), u.size, v.matrix(b), v.size, &mut self.nets);
+        }
+        let (side_u, side_v) =
+            (sides(surface.knots_u(), u.spans[a]), sides(surface.knots_v(), v.spans[b]));
+        let mut patch = Patch {
+            u: side_u.0,
+            v: side_v.0,
+            center: net.center,
+            radius: net.radius,
+            border: [side_u.1[0], side_u.1[1], side_v.1[0], side_v.1[1]],
+            collapsed,
+            spread: 0.0,
+        };
+        self.make_collapsed_exact(surface, &mut patch, start);
+        let mut aabb = Aabb::EMPTY;
+        self.visit_poles(start, |_, _, pole, _| aabb.include(add(net.center, pole)));
+        let margin = position_steps(self.degree.s + self.degree.t) * net.radius + 8.0 * HALF_ULP;
+        let margin = margin + patch.spread;
+        self.patches.push(patch);
+        aabb.grown(margin)
+    }
+
+    fn local_net(&self, surface: &Surface, span_u: usize, span_v: usize) -> LocalNet {
+        let columns = surface.knots_v().pole_count();
+        let mut local = Vec::with_capacity(self.degree.count());
+        // Equal weights are no weights: the surface says so, and then they must not scale the poles.
+        let weights = surface.weights().filter(|_| self.rational);
+        for i in span_u - self.degree.s..=span_u {
+            for j in span_v - self.degree.t..=span_v {
+                let at = i * columns + j;
+                let weight = weights.map_or(1.0, |w| w[at]);
+                local.push((self.frame.enter(surface.poles()[at]), weight));
+            }
+        }
+        LocalNet::new(&local)
+    }
+
+    /// Calls `f(i, j, Euclidean pole, weight)` for the net that starts at `start`.
+    fn visit_poles(&self, start: usize, mut f: impl FnMut(usize, usize, Vector, f64)) {
+        let count = self.degree.count();
+        let net = &self.nets[start..];
+        for k in 0..count {
+            let w = if self.rational { net[3 * count + k] } else { 1.0 };
+            let at = |c: usize| net[c * count + k] / w;
+            f(k / (self.degree.t + 1), k % (self.degree.t + 1), [at(0), at(1), at(2)], w);
+        }
+    }
+
+    /// Moves the poles of collapsed sides onto one point, the surface's own corner there, and records how far.
+    fn make_collapsed_exact(&mut self, surface: &Surface, patch: &mut Patch, start: usize) {
+        let [u0, u1, v0, v1] = surface.domain();
+        let corner = [(u0, v0), (u1, v0), (u0, v0), (u0, v1)];
+        for k in (0..4).filter(|&k| patch.collapsed[k]) {
+            let (u, v) = corner[k];
+            let point = sub(self.frame.enter(surface.evaluate(u, v)), patch.center);
+            let (last_i, last_j) = (self.degree.s, self.degree.t);
+            let mut moves = Vec::new();
+            self.visit_poles(start, |i, j, pole, weight| {
+                if [i == 0, i == last_i, j == 0, j == last_j][k] {
+                    moves.push((i * (last_j + 1) + j, weight));
+                    patch.spread = patch.spread.max(norm(sub(pole, point)));
+                }
+            });
+            for (at, weight) in moves {
+                for c in 0..3 {
+                    self.nets[start + c * self.degree.count() + at] = weight * point[c];
+                }
+            }
+        }
+    }
+
+    /// Patch `k`'s poles.
+    pub fn net(&self, k: usize) -> BezierPatch<'_> {
+        let width = self.degree.count() * if self.rational { 4 } else { 3 };
+        let poles = &self.nets[k * width..(k + 1) * width];
+        BezierPatch { degree: self.degree, rational: self.rational, poles }
+    }
+
+    /// Patch `k`'s tensors A, -2 B, C, when they are kept.
+    pub fn tensors(&self, k: usize) -> Option<&[f64]> {
+        let width = tensor_len(self.degree, self.rational);
+        self.tensors.get(k * width..(k + 1) * width)
+    }
+
+    /// Bytes held.
+    pub fn memory(&self) -> usize {
+        (self.nets.capacity() + self.tensors.capacity()) * 8
+            + self.patches.capacity() * size_of::<Patch>()
+            + self.tree.memory()
+    }
+}
+
+/// Parameters of a span's ends, and whether each is a border of the domain or a C0 knot.
+fn sides(knots: &Knots, span: usize) -> ([f64; 2], [bool; 2]) {
+    let ends = [knots.values()[span], knots.values()[span + 1]];
+    let (first, last) = knots.domain();
+    let border = ends.map(|u| u == first || u == last || knots.multiplicity(u) >= knots.degree());
+    (ends, border)
+}
+
+/// Applies the two extraction matrices to one component of a local net and appends the Bezier poles.
+fn extract(
+    local: &[f64],
+    m_u: &[f64],
+    rows: usize,
+    m_v: &[f64],
+    columns: usize,
+    out: &mut Vec<f64>,
+) {
+    let mut half = vec![0.0; rows * columns];
+    for i in 0..rows {
+        for j in 0..columns {
+            let row = &m_v[j * columns..(j + 1) * columns];
+            half[i * columns + j] = row.iter().zip(&local[i * columns..]).map(|(m, x)| m * x).sum();
+        }
+    }
+    for i in 0..rows {
+        for j in 0..columns {
+            out.push((0..rows).map(|k| m_u[i * rows + k] * half[k * columns + j]).sum());
+        }
+    }
+}

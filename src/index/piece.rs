@@ -1,0 +1,167 @@
+//! What segments and patches share: the frame of a shape, the tensors, the rounding of a piece.
+
+use crate::bezier::{Bidegree, convolve, convolve_square, scale_down_2d, scale_up_2d};
+use crate::bounds::{Aabb, HALF_ULP, Vector, add, norm, scaled, sub};
+use crate::error::Error;
+
+/// Most memory that tensors may take for one shape; beyond it, products are formed per query.
+pub const MAX_TENSOR_BYTES: usize = 64 << 20;
+
+/// The map from the caller's coordinates to the index's: subtract `center`, multiply by `scale` (a power of two).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// A pole near the middle of the shape's box.
+    pub center: Vector,
+    /// Power of two that brings the box diagonal into [1, 2).
+    pub scale: f64,
+    /// Diagonal of the box in the caller's coordinates.
+    pub diagonal: f64,
+    /// Greatest absolute coordinate of the box in the caller's coordinates.
+    pub magnitude: f64,
+}
+
+impl Frame {
+    /// The frame of a shape with the given poles and pole box.
+    pub fn new(poles: &[Vector], bounds: (Vector, Vector)) -> Self {
+        let bounds = Aabb { low: bounds.0, high: bounds.1 };
+        let diagonal = bounds.diagonal();
+        let middle = add(scaled(bounds.low, 0.5), scaled(bounds.high, 0.5));
+        let apart = |p: &Vector| norm(sub(*p, middle));
+        let center = poles.iter().copied().min_by(|a, b| apart(a).total_cmp(&apart(b)));
+        let magnitude = bounds.low.iter().chain(&bounds.high).fold(0.0, |m: f64, x| m.max(x.abs()));
+        let scale = power_of_two_over(diagonal);
+        Self { center: center.unwrap_or(middle), scale, diagonal, magnitude }
+    }
+
+    /// A point of the caller in the index's coordinates. Relative rounding: one half ulp per coordinate.
+    pub fn enter(&self, point: Vector) -> Vector {
+        scaled(sub(point, self.center), self.scale)
+    }
+}
+
+/// `2^-e` with `2^e <= x < 2^(e+1)`; one when that cannot be held.
+pub fn power_of_two_over(x: f64) -> f64 {
+    if !(1e-290..1e290).contains(&x) {
+        return 1.0;
+    }
+    1.0 / f64::from_bits(x.to_bits() & 0x7ff0_0000_0000_0000)
+}
+
+/// Rounding of a piece's net, one cut and one evaluation, relative to `|X/W| + |p|`; `degrees` is the summed degree.
+///
+/// Counts the rows of `bezier`'s table: extraction 7, two ends of a cut 8, basis and sum 6 per degree and
+/// direction, rounded up to 24, and 32 for recentring, weighting and the division.
+pub fn position_steps(degrees: usize) -> f64 {
+    (24 * degrees + 32) as f64 * HALF_ULP
+}
+
+/// How far `r / W` computed in a piece may be from the exact vector: `steps` from [`position_steps`], the piece's
+/// radius, |p| in the piece's frame and |q| in the shape's.
+///
+/// The last term is the rounding of the frame: once for the poles (at most 2 away from the centre), once for the
+/// query, once more for each in the piece.
+pub fn position_error(steps: f64, radius: f64, p: f64, q: f64) -> f64 {
+    steps * (radius + p) + 8.0 * HALF_ULP * (2.0 + q)
+}
+
+/// Rounding of a product coefficient relative to the sum of its absolute terms, of which there are `terms`.
+pub fn product_steps(terms: usize) -> f64 {
+    (2 * terms + 24) as f64 * HALF_ULP
+}
+
+/// The B-spline poles that shape one piece, recentred and weighted, component by component.
+pub struct LocalNet {
+    /// x, y, z and, when rational, w.
+    pub components: [Vec<f64>; 4],
+    /// The recentring, in the index's coordinates.
+    pub center: Vector,
+    /// Greatest Euclidean pole distance from `center`.
+    pub radius: f64,
+}
+
+impl LocalNet {
+    /// Recentres on the pole in the middle and scales the greatest weight into [1, 2).
+    pub fn new(poles: &[(Vector, f64)]) -> Self {
+        let center = poles[poles.len() / 2].0;
+        let factor = power_of_two_over(poles.iter().fold(0.0, |m: f64, p| m.max(p.1)));
+        let mut net = Self { components: Default::default(), center, radius: 0.0 };
+        for &(pole, weight) in poles {
+            let (x, w) = (sub(pole, center), weight * factor);
+            net.radius = net.radius.max(norm(x));
+            for c in 0..3 {
+                net.components[c].push(w * x[c]);
+            }
+            net.components[3].push(w);
+        }
+        net
+    }
+}
+
+/// Number of values in the tensors of one piece.
+pub fn tensor_len(degree: Bidegree, rational: bool) -> usize {
+    degree.times(degree).count() * if rational { 5 } else { 4 }
+}
+
+/// Appends the tensors A, -2 B (three) and, when rational, C of a net (component by component) to `out`.
+pub fn push_tensors(net: &[f64], degree: Bidegree, rational: bool, out: &mut Vec<f64>) {
+    let (count, twice) = (degree.count(), degree.times(degree));
+    let mut scaled_net = net.to_vec();
+    if !rational {
+        scaled_net.resize(4 * count, 1.0);
+    }
+    for component in scaled_net.chunks_exact_mut(count) {
+        scale_up_2d(component, degree);
+    }
+    let start = out.len();
+    out.resize(start + tensor_len(degree, rational), 0.0);
+    let weights = &scaled_net[3 * count..];
+    for (k, tensor) in out[start..].chunks_exact_mut(twice.count()).enumerate() {
+        match k {
+            0 => (0..3).for_each(|c| {
+                convolve_square(&scaled_net[c * count..(c + 1) * count], degree, 1.0, tensor);
+            }),
+            4 => convolve_square(weights, degree, 1.0, tensor),
+            _ => {
+                let component = &scaled_net[(k - 1) * count..k * count];
+                convolve(component, degree, weights, degree, -2.0, tensor);
+            }
+        }
+        scale_down_2d(tensor, twice);
+    }
+}
+
+/// An empty list with room for `count` values.
+///
+/// # Errors
+/// [`Error::OutOfMemory`].
+pub fn reserved<T>(count: usize) -> Result<Vec<T>, Error> {
+    let mut list = Vec::new();
+    list.try_reserve_exact(count).map_err(|_| Error::OutOfMemory)?;
+    Ok(list)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_scale_is_a_power_of_two_and_brings_the_diagonal_to_one() {
+        for x in [1e-9, 0.3, 1.0, 1.5, 7e8, 1e99] {
+            let s = power_of_two_over(x);
+            assert!((1.0..2.0).contains(&(x * s)), "{x}");
+            assert_eq!(s.to_bits() & 0x000f_ffff_ffff_ffff, 0);
+        }
+        assert_eq!(power_of_two_over(0.0), 1.0);
+    }
+
+    #[test]
+    fn tensors_of_a_segment_give_the_squared_distance() {
+        let degree = Bidegree { s: 0, t: 1 };
+        let net = [0.0, 2.0, 1.0, 1.0, 0.0, 0.0];
+        let mut out = Vec::new();
+        push_tensors(&net, degree, false, &mut out);
+        // |(2t, 1, 0)|^2 = 4 t^2 + 1: Bernstein 1, 1, 5. -2 x: 0, -2, -4.
+        assert_eq!(out[..3], [1.0, 1.0, 5.0]);
+        assert_eq!(out[3..6], [0.0, -2.0, -4.0]);
+    }
+}

@@ -1,0 +1,137 @@
+//! The index of a curve: its Bezier segments.
+
+use super::piece::{
+    Frame, LocalNet, MAX_TENSOR_BYTES, position_steps, push_tensors, reserved, tensor_len,
+};
+use crate::bezier::{Bidegree, extraction};
+use crate::bounds::{Aabb, HALF_ULP, Vector, add};
+use crate::curve::Curve;
+use crate::error::Error;
+use crate::jet::BezierSegment;
+use crate::tree::Tree;
+
+/// One Bezier segment; its numbers are in [`CurveIndex`]'s arrays.
+#[derive(Clone, Debug)]
+pub struct Segment {
+    /// Parameters of the two ends.
+    pub u: [f64; 2],
+    /// Origin of the segment's coordinates, in the index's coordinates.
+    pub center: Vector,
+    /// Greatest distance of a pole from `center`.
+    pub radius: f64,
+    /// Whether a least distance may sit on this end with a gradient: a curve end or a C0 knot.
+    pub border: [bool; 2],
+}
+
+/// Search structure of a curve.
+#[derive(Debug)]
+pub struct CurveIndex {
+    /// Map from the caller's coordinates.
+    pub frame: Frame,
+    /// The segments in order.
+    pub segments: Vec<Segment>,
+    /// Boxes of the segments.
+    pub tree: Tree,
+    /// Whether the curve is closed.
+    pub closed: bool,
+    degree: usize,
+    rational: bool,
+    nets: Vec<f64>,
+    tensors: Vec<f64>,
+}
+
+impl CurveIndex {
+    /// Builds the index; `poll` is asked now and then whether to stop.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`], [`Error::Cancelled`].
+    pub fn new(curve: &Curve, poll: &mut dyn FnMut() -> bool) -> Result<Self, Error> {
+        let (p, rational) = (curve.degree(), curve.is_rational());
+        let knots = curve.knots();
+        let spans: Vec<usize> = knots.spans().collect();
+        let width = (p + 1) * if rational { 4 } else { 3 };
+        let degree = Bidegree { s: 0, t: p };
+        let tensor_width = tensor_len(degree, rational);
+        let keep_tensors = spans.len() * tensor_width * 8 <= MAX_TENSOR_BYTES;
+        let mut index = Self {
+            frame: Frame::new(curve.poles(), curve.bounding_box()),
+            segments: reserved(spans.len())?,
+            tree: Tree::new(&[], 0, 0),
+            closed: curve.is_closed(),
+            degree: p,
+            rational,
+            nets: reserved(spans.len() * width)?,
+            tensors: reserved(if keep_tensors { spans.len() * tensor_width } else { 0 })?,
+        };
+        let mut boxes = reserved(spans.len())?;
+        for (k, &span) in spans.iter().enumerate() {
+            if k % 1024 == 1023 && poll() {
+                return Err(Error::Cancelled);
+            }
+            boxes.push(index.push_segment(curve, span));
+            if keep_tensors {
+                let net = &index.nets[k * width..];
+                push_tensors(net, degree, rational, &mut index.tensors);
+            }
+        }
+        index.tree = Tree::new(&boxes, boxes.len(), 1);
+        Ok(index)
+    }
+
+    fn push_segment(&mut self, curve: &Curve, span: usize) -> Aabb {
+        let (p, knots) = (self.degree, curve.knots());
+        // Equal weights are no weights: the curve says so, and then they must not scale the poles.
+        let weights = curve.weights().filter(|_| self.rational);
+        let weight = |i: usize| weights.map_or(1.0, |w| w[i]);
+        let local: Vec<_> =
+            (span - p..=span).map(|i| (self.frame.enter(curve.poles()[i]), weight(i))).collect();
+        let net = LocalNet::new(&local);
+        let mut matrix = vec![0.0; (p + 1) * (p + 1)];
+        extraction(knots, span, &mut matrix);
+        let mut aabb = Aabb::EMPTY;
+        let start = self.nets.len();
+        let components = if self.rational { 4 } else { 3 };
+        for component in &net.components[..components] {
+            for row in matrix.chunks_exact(p + 1) {
+                self.nets.push(row.iter().zip(component).map(|(m, x)| m * x).sum());
+            }
+        }
+        let poles = &self.nets[start..];
+        for i in 0..=p {
+            let w = if self.rational { poles[3 * (p + 1) + i] } else { 1.0 };
+            let at = |c: usize| poles[c * (p + 1) + i] / w;
+            aabb.include(add(net.center, [at(0), at(1), at(2)]));
+        }
+        let (u0, u1) = (knots.values()[span], knots.values()[span + 1]);
+        let (first, last) = knots.domain();
+        let border =
+            [u0 == first || knots.multiplicity(u0) >= p, u1 == last || knots.multiplicity(u1) >= p];
+        self.segments.push(Segment { u: [u0, u1], center: net.center, radius: net.radius, border });
+        aabb.grown(position_steps(p) * net.radius + 8.0 * HALF_ULP)
+    }
+
+    /// Degree of the segments.
+    pub fn degree(&self) -> usize {
+        self.degree
+    }
+
+    /// Segment `k`'s poles.
+    pub fn net(&self, k: usize) -> BezierSegment<'_> {
+        let width = (self.degree + 1) * if self.rational { 4 } else { 3 };
+        let poles = &self.nets[k * width..(k + 1) * width];
+        BezierSegment { degree: self.degree, rational: self.rational, poles }
+    }
+
+    /// Segment `k`'s tensors A, -2 B, C, when they are kept.
+    pub fn tensors(&self, k: usize) -> Option<&[f64]> {
+        let width = tensor_len(Bidegree { s: 0, t: self.degree }, self.rational);
+        self.tensors.get(k * width..(k + 1) * width)
+    }
+
+    /// Bytes held.
+    pub fn memory(&self) -> usize {
+        (self.nets.capacity() + self.tensors.capacity()) * 8
+            + self.segments.capacity() * size_of::<Segment>()
+            + self.tree.memory()
+    }
+}

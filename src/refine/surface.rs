@@ -1,0 +1,323 @@
+//! Foot points on surfaces.
+
+use super::{LAST_STEP, Method, NO_STEP, Trace, arc_ratio};
+use crate::bounds::{Vector, cross, dot};
+use crate::jet::{BezierPatch, Jet2};
+
+/// What the iteration asks of a surface.
+pub trait SurfaceJets {
+    /// Jet at a pair of parameters.
+    fn jet(&self, s: f64, t: f64) -> Jet2;
+    /// The parameters as the caller knows them, for traces.
+    fn global(&self, s: f64, t: f64) -> [f64; 2];
+}
+
+impl SurfaceJets for (BezierPatch<'_>, Vector) {
+    fn jet(&self, s: f64, t: f64) -> Jet2 {
+        self.0.jet(s, t, self.1)
+    }
+
+    fn global(&self, s: f64, t: f64) -> [f64; 2] {
+        [s, t]
+    }
+}
+
+/// A parameter pair, its box and which of the two is held at a border.
+struct State {
+    at: [f64; 2],
+    range: [f64; 4],
+}
+
+impl State {
+    fn low(&self, k: usize) -> f64 {
+        self.range[2 * k]
+    }
+
+    fn high(&self, k: usize) -> f64 {
+        self.range[2 * k + 1]
+    }
+
+    fn width(&self, k: usize) -> f64 {
+        self.high(k) - self.low(k)
+    }
+
+    /// Parameters that the gradient presses against their border.
+    fn held(&self, g: [f64; 2]) -> [bool; 2] {
+        [0, 1].map(|k| {
+            (self.at[k] <= self.low(k) && g[k] >= 0.0)
+                || (self.at[k] >= self.high(k) && g[k] <= 0.0)
+        })
+    }
+
+    /// The point `share` of the way along `step`, inside the box.
+    fn moved(&self, step: [f64; 2], share: f64) -> [f64; 2] {
+        [0, 1].map(|k| (self.at[k] + share * step[k]).clamp(self.low(k), self.high(k)))
+    }
+
+    /// Greatest move, as a share of the box.
+    fn size(&self, to: [f64; 2]) -> f64 {
+        let share = |k: usize| {
+            if self.width(k) > 0.0 { (to[k] - self.at[k]).abs() / self.width(k) } else { 0.0 }
+        };
+        share(0).max(share(1))
+    }
+}
+
+/// Iterates from `start` inside `range` (s low, s high, t low, t high) to a local minimum of the distance.
+///
+/// Returns the parameters, the jet there and the number of jets taken.
+pub fn foot_on_surface(
+    surface: &impl SurfaceJets,
+    start: [f64; 2],
+    range: [f64; 4],
+    method: Method,
+    mut trace: Option<Trace>,
+) -> ([f64; 2], Jet2, u32) {
+    let mut state = State { at: start, range };
+    state.at = state.moved([0.0; 2], 0.0);
+    let mut jet = surface.jet(state.at[0], state.at[1]);
+    let mut taken = 1;
+    tell(&mut trace, surface, 0, state.at, &jet);
+    for count in 1..=method.steps() {
+        let Some((step, second_order)) = bounded_step(&state, &jet, method) else { break };
+        let mut next = state.moved(step, 1.0);
+        let size = state.size(next);
+        if size <= NO_STEP {
+            break;
+        }
+        let last = second_order && size <= LAST_STEP;
+        let mut candidate = surface.jet(next[0], next[1]);
+        taken += 1;
+        let mut share = 1.0;
+        while !last && !improved(&candidate, &jet) && share > 1e-4 {
+            share *= 0.5;
+            next = state.moved(step, share);
+            candidate = surface.jet(next[0], next[1]);
+            taken += 1;
+        }
+        if !last && !improved(&candidate, &jet) {
+            break;
+        }
+        (state.at, jet) = (next, candidate);
+        tell(&mut trace, surface, count, state.at, &jet);
+        if last {
+            break;
+        }
+    }
+    (state.at, jet, taken)
+}
+
+/// Nearer, or as near as rounding can tell and with a smaller gradient.
+fn improved(new: &Jet2, old: &Jet2) -> bool {
+    let (a, b) = (new.squared(), old.squared());
+    if a < b - 1e-13 * b {
+        return true;
+    }
+    let steepness = |jet: &Jet2| {
+        let ([x, y], [e, _, g]) = (jet.gradient(), jet.metric());
+        x * x / (e + 1e-300) + y * y / (g + 1e-300)
+    };
+    a <= b + 1e-13 * b + 1e-28 && steepness(new) < steepness(old)
+}
+
+fn tell(
+    trace: &mut Option<Trace>,
+    surface: &impl SurfaceJets,
+    step: u32,
+    at: [f64; 2],
+    jet: &Jet2,
+) {
+    if let Some(trace) = trace {
+        let [u, v] = surface.global(at[0], at[1]);
+        trace(step, u, v, jet.squared().sqrt());
+    }
+}
+
+/// A descent step over the parameters that are free; `None` at a point where nothing can move.
+///
+/// A parameter at its border may be free by its gradient and still be pushed outward by a coupled step; it is
+/// then held for this step, and if the other one does not want to move either, it takes its own step.
+fn bounded_step(state: &State, jet: &Jet2, method: Method) -> Option<([f64; 2], bool)> {
+    let g = jet.gradient();
+    let held = state.held(g);
+    match held {
+        [true, true] => return None,
+        [true, false] => return Some(single(jet, 1, method)),
+        [false, true] => return Some(single(jet, 0, method)),
+        [false, false] => {}
+    }
+    let (step, second_order) = free_step(jet, method);
+    for k in 0..2 {
+        let outward = (state.at[k] <= state.low(k) && step[k] < 0.0)
+            || (state.at[k] >= state.high(k) && step[k] > 0.0);
+        if outward {
+            let (other, order) = single(jet, 1 - k, method);
+            if state.size(state.moved(other, 1.0)) > LAST_STEP {
+                return Some((other, order));
+            }
+            return Some(single(jet, k, method));
+        }
+    }
+    (g != [0.0; 2]).then_some((step, second_order))
+}
+
+/// The step of one parameter alone.
+fn single(jet: &Jet2, k: usize, method: Method) -> ([f64; 2], bool) {
+    let one = jet.along(k);
+    let (g, hessian, speed) = (one.gradient(), one.hessian(), dot(one.s, one.s));
+    let (step, order) = if hessian > 0.0 && method != Method::Maf {
+        (-g / hessian, true)
+    } else if speed > 0.0 {
+        (-g / speed, false)
+    } else {
+        (0.0, false)
+    };
+    let mut both = [0.0; 2];
+    both[k] = step;
+    (both, order)
+}
+
+/// The step of a method with both parameters free, and whether it is of second order here.
+fn free_step(jet: &Jet2, method: Method) -> ([f64; 2], bool) {
+    let g = jet.gradient();
+    let [a, b, c] = jet.hessian();
+    let newton = a > 0.0 && c > 0.0 && a * c - b * b > 1e-14 * a * c;
+    match method {
+        Method::Auto | Method::Newton if newton => (solved([a, b, c], g), true),
+        Method::Maf | Method::Newton => (fall(jet, g), jet.squared() < 1e-14 * (a + c)),
+        Method::Auto | Method::Osculating => (osculating(jet, g), newton),
+    }
+}
+
+/// `-M^-1 g` for a symmetric positive definite 2 x 2 matrix.
+fn solved([a, b, c]: [f64; 3], g: [f64; 2]) -> [f64; 2] {
+    let det = a * c - b * b;
+    [(b * g[1] - c * g[0]) / det, (b * g[0] - a * g[1]) / det]
+}
+
+/// The moving-affine-frame step: the fall on the tangent plane. Where the plane is degenerate the two
+/// directions are taken one by one.
+fn fall(jet: &Jet2, g: [f64; 2]) -> [f64; 2] {
+    let [e, f, h] = jet.metric();
+    if e * h - f * f > 1e-12 * e * h {
+        return solved([e, f, h], g);
+    }
+    let along = |g: f64, m: f64| if m > 0.0 { -0.5 * g / m } else { 0.0 };
+    [along(g[0], e), along(g[1], h)]
+}
+
+/// The fall, bent along the osculating circles of the two principal directions (a torus has the same two).
+///
+/// In an orthonormal frame of the tangent plane the second fundamental form is diagonalised; each component of
+/// the fall is lengthened to the arc that leads to the foot on that circle.
+fn osculating(jet: &Jet2, g: [f64; 2]) -> [f64; 2] {
+    let [e, f, h] = jet.metric();
+    let normal = cross(jet.s, jet.t);
+    let area = dot(normal, normal).sqrt();
+    if area * area <= 1e-12 * e * h {
+        return fall(jet, g);
+    }
+    let n = normal.map(|x| x / area);
+    // x = r1 a, y = r2 a + r3 b: parameters (a, b) to an orthonormal frame, (x, y) with the first axis on S_s.
+    let (r1, r2, r3) = (e.sqrt(), f / e.sqrt(), area / e.sqrt());
+    let (l, m, k) = (dot(jet.ss, n), dot(jet.st, n), dot(jet.tt, n));
+    let l11 = l / (r1 * r1);
+    let l12 = (m - l * r2 / r1) / (r1 * r3);
+    let l22 = (k - 2.0 * m * r2 / r1 + l * (r2 / r1) * (r2 / r1)) / (r3 * r3);
+    let step = solved([e, f, h], g);
+    let (x, y) = (r1 * step[0] + r2 * step[1], r3 * step[1]);
+    let (cos, sin) = principal(l11, l12, l22);
+    let height = -dot(jet.d, n);
+    let k1 = l11 * cos * cos + 2.0 * l12 * cos * sin + l22 * sin * sin;
+    let k2 = l11 * sin * sin - 2.0 * l12 * cos * sin + l22 * cos * cos;
+    let (p, q) = (cos * x + sin * y, cos * y - sin * x);
+    let (p, q) = (p * arc_ratio(p, height, k1), q * arc_ratio(q, height, k2));
+    let (x, y) = (cos * p - sin * q, sin * p + cos * q);
+    let b = y / r3;
+    [(x - r2 * b) / r1, b]
+}
+
+/// Cosine and sine of the first principal direction of a symmetric 2 x 2 form.
+fn principal(a: f64, b: f64, c: f64) -> (f64, f64) {
+    if b == 0.0 {
+        return (1.0, 0.0);
+    }
+    // Jacobi rotation: tan of the angle from cot 2 phi, without trigonometry.
+    let cot = (a - c) / (2.0 * b);
+    let tan = 1.0 / (cot.abs() + (1.0 + cot * cot).sqrt());
+    let tan = if cot < 0.0 { -tan } else { tan };
+    let cos = 1.0 / (1.0 + tan * tan).sqrt();
+    (cos, tan * cos)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bezier::Bidegree;
+    use crate::bounds::{add, scaled};
+
+    fn patch_poles() -> Vec<f64> {
+        let (mut x, mut y, mut z) = (vec![], vec![], vec![]);
+        for i in 0..4 {
+            for j in 0..4 {
+                x.push(i as f64);
+                y.push(j as f64);
+                z.push(((i * 5 + j * 3) % 4) as f64 * 0.4);
+            }
+        }
+        [x, y, z].concat()
+    }
+
+    #[test]
+    fn every_method_finds_a_planted_foot() {
+        let poles = patch_poles();
+        let patch = BezierPatch { degree: Bidegree { s: 3, t: 3 }, rational: false, poles: &poles };
+        for (s, t) in [(0.2, 0.7), (0.5, 0.5), (0.9, 0.1)] {
+            let jet = patch.jet(s, t, [0.0; 3]);
+            let n = cross(jet.s, jet.t);
+            let query = add(jet.d, scaled(n, 0.2 / dot(n, n).sqrt()));
+            for method in [Method::Auto, Method::Maf, Method::Newton, Method::Osculating] {
+                let (at, jet, _) = foot_on_surface(
+                    &(patch, query),
+                    [s + 0.04, t - 0.03],
+                    [0.0, 1.0, 0.0, 1.0],
+                    method,
+                    None,
+                );
+                assert!((at[0] - s).abs() + (at[1] - t).abs() < 1e-8, "{method:?} {at:?} {s} {t}");
+                assert!((jet.squared().sqrt() - 0.2).abs() < 1e-13);
+            }
+        }
+    }
+
+    #[test]
+    fn the_osculating_step_is_of_second_order_off_the_surface() {
+        let poles = patch_poles();
+        let patch = BezierPatch { degree: Bidegree { s: 3, t: 3 }, rational: false, poles: &poles };
+        let jet = patch.jet(0.4, 0.6, [0.0; 3]);
+        let n = cross(jet.s, jet.t);
+        let query = add(jet.d, scaled(n, 0.4 / dot(n, n).sqrt()));
+        let (_, _, taken) = foot_on_surface(
+            &(patch, query),
+            [0.42, 0.58],
+            [0.0, 1.0, 0.0, 1.0],
+            Method::Osculating,
+            None,
+        );
+        assert!(taken <= 6, "{taken}");
+    }
+
+    #[test]
+    fn corners_and_edges_hold_a_foot_that_wants_to_leave() {
+        let poles = patch_poles();
+        let patch = BezierPatch { degree: Bidegree { s: 3, t: 3 }, rational: false, poles: &poles };
+        let all = [0.0, 1.0, 0.0, 1.0];
+        let (at, _, _) =
+            foot_on_surface(&(patch, [-3.0, -3.0, 0.0]), [0.5, 0.5], all, Method::Auto, None);
+        assert_eq!(at, [0.0, 0.0]);
+        let (at, _, _) =
+            foot_on_surface(&(patch, [1.4, 9.0, 0.5]), [0.5, 0.5], all, Method::Auto, None);
+        assert_eq!(at[1], 1.0);
+        assert!(at[0] > 0.0 && at[0] < 1.0);
+    }
+}
