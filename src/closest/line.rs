@@ -194,7 +194,7 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
             }
         }
         if self.proof.best == f64::INFINITY {
-            self.iterate(interval, place);
+            self.iterate(interval, place, self.line.range);
         }
         if let Some(end) = self.monotone(interval, at, least) {
             if self.is_border(interval, end) {
@@ -254,10 +254,8 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         (high < -allowance).then_some(1)
     }
 
-    /// Runs the local iteration in the interval from the Greville abscissa of coefficient `place`, or from the
-    /// best foot when it is inside.
-    fn iterate(&mut self, interval: &Interval, place: usize) -> (f64, Jet1) {
-        let (low, high) = (interval.low, interval.high);
+    /// Runs the local iteration in a range from the Greville abscissa of coefficient `place`.
+    fn iterate(&mut self, interval: &Interval, place: usize, [low, high]: [f64; 2]) -> (f64, Jet1) {
         let curve = (self.line.segment, self.line.query);
         let start = self.abscissa(interval, place);
         let (s, jet, taken) = match &mut self.proof.trace {
@@ -285,7 +283,7 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         let jet = self.line.segment.jet(self.abscissa(interval, place), self.line.query);
         self.proof.evaluations += 1;
         if norm(jet.d) < self.proof.target {
-            self.iterate(interval, place);
+            self.iterate(interval, place, self.line.range);
         }
     }
 
@@ -295,7 +293,7 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         if self.curvature(interval, at, weight) <= 0.0 {
             return false;
         }
-        let (s, jet) = self.iterate(interval, place);
+        let (s, jet) = self.iterate(interval, place, [interval.low, interval.high]);
         let curvature = self.curvature(interval, at, weight);
         curvature > 0.0 && self.first_order(interval, s, &jet, curvature)
     }

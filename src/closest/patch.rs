@@ -248,7 +248,7 @@ impl Walk<'_, '_, '_> {
         }
         if self.proof.best == f64::INFINITY {
             let start = self.start(area, place);
-            self.iterate(area, start);
+            self.iterate(self.sheet.range, start);
             area.error += 8.0 * HALF_ULP * self.proof.target_squared;
             if self.proof.is_trivial() {
                 return Verdict::Closed;
@@ -410,19 +410,18 @@ impl Walk<'_, '_, '_> {
         }
     }
 
-    /// Looks at one point of an area that is not closed yet, and iterates from it when it is nearer than the
-    /// target: a target far too high makes `h` concave (by its term in C), and no test could ever close.
+    /// Looks at one point of an area that is not closed yet, and iterates from it (over the whole patch: a foot on
+    /// the border of an area would be none) when it is nearer than the target: a target far too high makes `h` concave (by its term in C), and no test could ever close.
     fn probe(&mut self, area: &Area, place: usize) {
         let at = self.abscissa(area, place);
         let jet = self.sheet.net.jet(at[0], at[1], self.sheet.query);
         self.proof.evaluations += 1;
         if norm(jet.d) < self.proof.target {
-            self.iterate(area, at);
+            self.iterate(self.sheet.range, at);
         }
     }
 
-    fn iterate(&mut self, area: &Area, start: [f64; 2]) -> ([f64; 2], Jet2) {
-        let range = [area.s[0], area.s[1], area.t[0], area.t[1]];
+    fn iterate(&mut self, range: [f64; 4], start: [f64; 2]) -> ([f64; 2], Jet2) {
         let surface = (self.sheet.net, self.sheet.query);
         let piece = self.sheet.piece;
         let (at, jet, taken) = match &mut self.proof.trace {
@@ -444,7 +443,7 @@ impl Walk<'_, '_, '_> {
             return false;
         }
         let start = self.start(area, place);
-        let (found, jet) = self.iterate(area, start);
+        let (found, jet) = self.iterate([area.s[0], area.s[1], area.t[0], area.t[1]], start);
         match self.curvature(area, at, weight) {
             Some(m) => self.first_order(area, found, &jet, m),
             None => false,

@@ -156,8 +156,7 @@ impl IndexedSurface {
             point,
             distance: distance(query, point),
             lower_bound: 0.0,
-            flags: place_flags(on, closed, index.collapsed)
-                | self.crease_flag(index, at, closed),
+            flags: place_flags(on, closed, index.collapsed) | self.crease_flag(index, at, closed),
             iterations: 0,
         }
     }

@@ -93,10 +93,10 @@ pub(super) fn check_extent(name: &str, count: usize, bytes_each: usize) -> Resul
     }
 }
 
-/// As [`array`], but NULL means that there is none.
+/// As [`array()`], but NULL means that there is none.
 ///
 /// # Safety
-/// As [`array`].
+/// As [`array()`].
 pub(super) unsafe fn optional_array<'a, T>(
     name: &'static str,
     pointer: *const T,

@@ -62,8 +62,7 @@ pub fn foot_on_curve(
             candidate = curve.jet(next);
             taken += 1;
         }
-        if !last && candidate.squared() >= jet.squared() && candidate.gradient().abs() >= g.abs()
-        {
+        if !last && candidate.squared() >= jet.squared() && candidate.gradient().abs() >= g.abs() {
             break;
         }
         (s, jet) = (next, candidate);
