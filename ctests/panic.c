@@ -10,7 +10,7 @@ static void a_panic_becomes_a_status(void) {
     fpt_foot_point before[2], after[2];
     CHECK_OK(fpt_surface_closest(surface, points, 2, NULL, before));
     for (size_t i = 0; i < COUNT_OF(threads); i++) {
-        CHECK_ERROR(fpt_panic_test(threads[i]), FPT_INTERNAL, "on purpose");
+        CHECK_ERROR(fpt_panic_test(threads[i]), FPT_INTERNAL, "internal error");
         CHECK_OK(fpt_surface_closest(surface, points, 2, NULL, after));
         CHECK_SAME_BITS(before, after, sizeof before);
     }

@@ -6,18 +6,20 @@ enum { POINTS = 300 };
 static const double paper_low[3] = {90, 100, 0}, paper_high[3] = {575, 440, 60};
 static const double cubic_low[3] = {0, -2, -1}, cubic_high[3] = {9, 3, 2};
 
-/* Points inside larger records, at an address that is no multiple of 8, with the bytes between them unreadable as numbers. */
+/* Points inside larger records at an odd address, NaN between them; the last record ends with its point. */
 static void strides_step_over_foreign_bytes(void) {
     enum { STRIDE = 40, HINT_STRIDE = 32 };
     double *points = scattered_points(POINTS, paper_low, paper_high, 0.3);
     double *hints = (double *)malloc(2 * POINTS * sizeof *hints);
-    unsigned char *records = (unsigned char *)malloc(STRIDE * POINTS);
-    unsigned char *hint_records = (unsigned char *)malloc(HINT_STRIDE * POINTS);
+    const size_t points_size = STRIDE * (POINTS - 1) + 3 * sizeof(double) + 1;
+    const size_t hints_size = HINT_STRIDE * (POINTS - 1) + 2 * sizeof(double) + 1;
+    unsigned char *block = (unsigned char *)malloc(points_size), *records = block + 1;
+    unsigned char *hint_block = (unsigned char *)malloc(hints_size), *hint_records = hint_block + 1;
     fpt_foot_point packed[POINTS], strided[POINTS];
     fpt_surface *surface = make_surface(paper_surface(0));
     fpt_query_options options = default_options();
-    memset(records, 0xFF, STRIDE * POINTS);
-    memset(hint_records, 0xFF, HINT_STRIDE * POINTS);
+    memset(block, 0xFF, points_size);
+    memset(hint_block, 0xFF, hints_size);
     for (size_t i = 0; i < POINTS; i++) {
         hints[2 * i] = (double)i / POINTS;
         hints[2 * i + 1] = 0.5;
@@ -32,8 +34,8 @@ static void strides_step_over_foreign_bytes(void) {
     CHECK_OK(fpt_surface_closest(surface, (const double *)(void *)records, POINTS, &options, strided));
     CHECK_SAME_BITS(packed, strided, sizeof packed);
     fpt_surface_free(surface);
-    free(hint_records);
-    free(records);
+    free(hint_block);
+    free(block);
     free(hints);
     free(points);
 }
