@@ -46,13 +46,12 @@ pub fn binomial(n: usize, k: usize) -> f64 {
     BINOMIAL[n][k]
 }
 
-/// The extraction matrix of one span: Bezier pole `i` = sum over `j` of `matrix[i * (p + 1) + j]` times
-/// spline pole `span - p + j`. All entries are >= 0 and every row sums to one.
+/// The extraction matrix of an interval inside one span: Bezier pole `i` = sum over `j` of
+/// `matrix[i * (p + 1) + j]` times spline pole `span - p + j`. All entries are >= 0 and every row sums to one.
 ///
-/// The rows are the blossoms with `p - i` arguments at the span's start and `i` at its end.
-pub fn extraction(knots: &Knots, span: usize, matrix: &mut [f64]) {
+/// The rows are the blossoms with `p - i` arguments at the interval's start and `i` at its end.
+pub fn extraction(knots: &Knots, span: usize, [start, end]: [f64; 2], matrix: &mut [f64]) {
     let p = knots.degree();
-    let (start, end) = (knots.values()[span], knots.values()[span + 1]);
     for i in 0..=p {
         let row = &mut matrix[i * (p + 1)..(i + 1) * (p + 1)];
         blossom_row(knots, span, |level| if level < p - i { start } else { end }, row);
@@ -295,8 +294,8 @@ mod tests {
         let knots = Knots::new(&[-1., 0., 0., 0.5, 2., 2., 3., 4., 4.5], 3, 5).unwrap();
         for span in knots.spans() {
             let mut matrix = [0.0; 16];
-            extraction(&knots, span, &mut matrix);
             let (a, b) = (knots.values()[span], knots.values()[span + 1]);
+            extraction(&knots, span, [a, b], &mut matrix);
             for row in matrix.chunks(4) {
                 assert!((row.iter().sum::<f64>() - 1.0).abs() < 1e-15);
                 assert!(row.iter().all(|&x| x >= 0.0));

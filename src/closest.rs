@@ -132,6 +132,7 @@ pub use crate::refine::Trace;
 #[derive(Clone, Debug, Default)]
 pub struct Workspace {
     queue: Queue,
+    deferred: Vec<usize>,
     line: line::LineMemory,
     patch: patch::PatchMemory,
 }

@@ -19,7 +19,7 @@ mod piece;
 mod segments;
 mod shape;
 
-pub use piece::{Frame, MAX_TENSOR_BYTES, position_error, position_steps, product_steps};
+pub use piece::{Frame, MAX_TENSOR_BYTES, Span, position_error, position_steps, product_steps};
 pub use segments::{CurveIndex, Segment};
 pub use shape::{IndexedCurve, IndexedSurface};
 

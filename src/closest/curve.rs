@@ -170,7 +170,7 @@ impl IndexedCurve {
         if at_seam && !index.closed || !at_seam && curve.knots().multiplicity(u) < curve.degree() {
             return false;
         }
-        let after = index.segments.iter().position(|s| s.u[0] == u);
+        let after = index.segments.iter().position(|s| s.u.ends[0] == u);
         let (before, after) = match after {
             Some(k) if k > 0 => (k - 1, k),
             _ if at_seam => (index.segments.len() - 1, 0),
@@ -195,43 +195,32 @@ struct CurveSearch<'a> {
 impl CurveSearch<'_> {
     /// The part of segment `k` inside the restriction, in local parameters.
     fn local_range(&self, k: usize) -> Option<[f64; 2]> {
-        let [u0, u1] = self.index.segments[k].u;
+        let span = self.index.segments[k].u;
+        let [u0, u1] = span.ends;
         if self.range[0] >= u1 && self.range[0] > u0 && k + 1 < self.index.segments.len()
             || self.range[1] <= u0 && k > 0
         {
             return None;
         }
-        let local = |u: f64| {
-            if u <= u0 {
-                0.0
-            } else if u >= u1 {
-                1.0
-            } else {
-                (u - u0) / (u1 - u0)
-            }
-        };
-        Some(self.range.map(local))
+        Some(self.range.map(|u| span.local(u)))
     }
 
     /// The caller's parameter of a place; ends of segments and of the restriction come out exactly.
     fn parameter(&self, site: Site) -> f64 {
-        let [u0, u1] = self.index.segments[site.piece].u;
-        let u = match site.at[0] {
-            0.0 => u0,
-            1.0 => u1,
-            s => u0 + s * (u1 - u0),
-        };
-        u.clamp(self.range[0], self.range[1])
+        self.index.segments[site.piece].u.global(site.at[0]).clamp(self.range[0], self.range[1])
     }
 
     fn start_at(&self, u: f64, proof: &mut Proof) {
         let u = u.clamp(self.range[0], self.range[1]);
-        let k =
-            self.index.segments.partition_point(|s| s.u[1] <= u).min(self.index.segments.len() - 1);
+        let k = self
+            .index
+            .segments
+            .partition_point(|s| s.u.ends[1] <= u)
+            .min(self.index.segments.len() - 1);
         let Some(range) = self.local_range(k) else { return };
         let segment = &self.index.segments[k];
         let view = (self.index.net(k), sub(self.query, segment.center));
-        let start = (u - segment.u[0]) / (segment.u[1] - segment.u[0]);
+        let start = segment.u.local(u);
         let (s, jet, taken) = foot_on_curve(&view, start, range, self.options.method, None);
         proof.evaluations += taken;
         proof.offer(Site { piece: k, at: [s, 0.0] }, norm(jet.d));

@@ -90,7 +90,7 @@ pub fn curve_start(index: &CurveIndex, query: Vector) -> f64 {
             if away < best.0 {
                 let nearest = range.map(|s| norm(view.jet(s, p).d));
                 let s = if nearest[0] <= nearest[1] { range[0] } else { range[1] };
-                best = (away, segment.u[0] + s * (segment.u[1] - segment.u[0]));
+                best = (away, segment.u.global(s));
             }
         }
     }
@@ -137,10 +137,7 @@ fn patch_start(index: &SurfaceIndex, k: usize, query: Vector, best: &mut (f64, [
             let apart = |at: &[f64; 2]| norm(view.jet(at[0], at[1], p).d);
             let nearest = corners.into_iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
             let [s, t] = nearest.unwrap_or([s[0], t[0]]);
-            let at = [
-                patch.u[0] + s * (patch.u[1] - patch.u[0]),
-                patch.v[0] + t * (patch.v[1] - patch.v[0]),
-            ];
+            let at = [patch.u.global(s), patch.v.global(t)];
             *best = (away, at);
         }
     }

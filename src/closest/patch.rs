@@ -41,6 +41,8 @@ pub struct Sheet<'a> {
     pub border: [bool; 4],
     /// Local iteration.
     pub method: Method,
+    /// Boxes after which the patch is put off.
+    pub patience: u64,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -79,14 +81,15 @@ impl PatchMemory {
     }
 }
 
-/// Searches the patch; see [`search_line`] for what holds on return.
-pub fn search_patch(sheet: &Sheet, memory: &mut PatchMemory, proof: &mut Proof) {
+/// Searches the patch; see [`search_line`] for what holds on return. False when patience ran out: then nothing holds
+/// but the best foot, and the patch is to be searched again.
+pub fn search_patch(sheet: &Sheet, memory: &mut PatchMemory, proof: &mut Proof) -> bool {
     memory.reserve(sheet.net.degree);
     memory.waiting.clear();
     let degree = sheet.net.degree.times(sheet.net.degree);
     let count = degree.count();
     let slot = if sheet.net.rational { 2 * count } else { count };
-    Walk { sheet, memory, proof, degree, count, slot }.run();
+    Walk { sheet, memory, proof, degree, count, slot }.run()
 }
 
 struct Walk<'a, 'b, 't> {
@@ -113,7 +116,8 @@ struct Slopes {
 }
 
 impl Walk<'_, '_, '_> {
-    fn run(&mut self) {
+    fn run(&mut self) -> bool {
+        let start = self.proof.spent;
         let [s0, s1, t0, t1] = self.sheet.range;
         let mut first = Area { s: [s0, s1], t: [t0, t1], ..Area::default() };
         self.proof.spread = self.proof.spread.max(self.sheet.patch.spread);
@@ -123,14 +127,17 @@ impl Walk<'_, '_, '_> {
             Some(tensors) if whole => self.multiply(tensors, &mut first),
             _ => {
                 if self.load(&mut first, 0) {
-                    return;
+                    return true;
                 }
             }
         }
         self.memory.waiting.push(first);
         while let Some(mut area) = self.memory.waiting.pop() {
             if self.proof.is_trivial() {
-                return;
+                return true;
+            }
+            if self.proof.spent - start > self.sheet.patience {
+                return false;
             }
             let at = self.memory.waiting.len();
             match self.judge(&mut area, at) {
@@ -143,6 +150,7 @@ impl Walk<'_, '_, '_> {
                 }
             }
         }
+        true
     }
 
     /// The collapsed points are candidates of their own.

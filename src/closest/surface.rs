@@ -9,11 +9,15 @@ use super::{
 };
 use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, sub};
 use crate::error::Error;
-use crate::index::{IndexedSurface, SurfaceIndex, position_error, position_steps};
+use crate::index::{IndexedSurface, Span, SurfaceIndex, position_error, position_steps};
 use crate::knots::Knots;
 use crate::refine::{Trace, foot_on_surface};
 
 use super::curve::LEAST_CREASE;
+
+/// Boxes that one patch may take before the others have had their turn: a difficult patch that does not even
+/// hold the foot must not use up the budget. One query in a thousand gets here.
+const PATIENCE: u64 = 64;
 
 impl IndexedSurface {
     /// The nearest point of the surface to `query`, with proof.
@@ -199,7 +203,7 @@ impl SurfaceIndex {
     /// The pieces before and after `x` in direction `k`, of those that hold the other parameter; across the seam
     /// at the ends of the domain.
     fn normals_differ(&self, at: [f64; 2], k: usize) -> bool {
-        let ends = |piece: usize, k: usize| {
+        let span = |piece: usize, k: usize| {
             if k == 0 { self.patches[piece].u } else { self.patches[piece].v }
         };
         let (rows, columns) = (self.patches.len() / self.columns, self.columns);
@@ -208,17 +212,16 @@ impl SurfaceIndex {
         let other_count = [rows, columns][1 - k];
         let other_stride = [columns, 1][1 - k];
         let other = (0..other_count)
-            .position(|i| at[1 - k] < ends(i * other_stride, 1 - k)[1])
+            .position(|i| at[1 - k] < span(i * other_stride, 1 - k).ends[1])
             .unwrap_or(other_count - 1);
         let base = other * other_stride;
-        let after = (0..count).find(|&i| ends(base + i * stride, k)[0] == at[k]);
+        let after = (0..count).find(|&i| span(base + i * stride, k).ends[0] == at[k]);
         let (before, after) = match after {
             Some(0) | None => (count - 1, 0),
             Some(i) => (i - 1, i),
         };
-        let [x0, x1] = ends(base, 1 - k);
-        let x = (at[1 - k] - x0) / (x1 - x0);
         let normal = |piece: usize, y: f64| {
+            let x = span(piece, 1 - k).local(at[1 - k]);
             let (s, t) = if k == 0 { (y, x) } else { (x, y) };
             let jet = self.net(piece).jet(s, t, [0.0; 3]);
             cross(jet.s, jet.t)
@@ -239,18 +242,9 @@ struct SurfaceSearch<'a> {
     steps: f64,
 }
 
-/// The part of [a, b] that a restriction leaves, in local parameters; `None` when it leaves nothing.
-fn local_interval([a, b]: [f64; 2], [low, high]: [f64; 2]) -> Option<[f64; 2]> {
-    let local = |x: f64| {
-        if x <= a {
-            0.0
-        } else if x >= b {
-            1.0
-        } else {
-            (x - a) / (b - a)
-        }
-    };
-    let range = [local(low), local(high)];
+/// The part of a piece that a restriction leaves, in local parameters; `None` when it leaves nothing.
+fn local_interval(span: Span, range: [f64; 2]) -> Option<[f64; 2]> {
+    let range = range.map(|u| span.local(u));
     (range[0] < range[1]).then_some(range)
 }
 
@@ -265,14 +259,9 @@ impl SurfaceSearch<'_> {
     /// The caller's parameters of a place; ends of patches come out exactly, and nothing leaves the restriction.
     fn parameters(&self, site: Site) -> [f64; 2] {
         let patch = &self.index.patches[site.piece];
-        let outer = |[a, b]: [f64; 2], s: f64| match s {
-            0.0 => a,
-            1.0 => b,
-            s => a + s * (b - a),
-        };
         [
-            outer(patch.u, site.at[0]).clamp(self.range[0], self.range[1]),
-            outer(patch.v, site.at[1]).clamp(self.range[2], self.range[3]),
+            patch.u.global(site.at[0]).clamp(self.range[0], self.range[1]),
+            patch.v.global(site.at[1]).clamp(self.range[2], self.range[3]),
         ]
     }
 
@@ -282,17 +271,14 @@ impl SurfaceSearch<'_> {
         let rows = self.index.patches.len() / self.index.columns;
         let row = (0..rows - 1)
             .collect::<Vec<_>>()
-            .partition_point(|&i| self.index.patches[i * self.index.columns].u[1] <= at[0]);
+            .partition_point(|&i| self.index.patches[i * self.index.columns].u.ends[1] <= at[0]);
         let column =
-            self.index.patches[..self.index.columns - 1].partition_point(|p| p.v[1] <= at[1]);
+            self.index.patches[..self.index.columns - 1].partition_point(|p| p.v.ends[1] <= at[1]);
         let k = row * self.index.columns + column;
         let Some(range) = self.local_range(k) else { return };
         let patch = &self.index.patches[k];
         let view = (self.index.net(k), sub(self.query, patch.center));
-        let start = [
-            (at[0] - patch.u[0]) / (patch.u[1] - patch.u[0]),
-            (at[1] - patch.v[0]) / (patch.v[1] - patch.v[0]),
-        ];
+        let start = [patch.u.local(at[0]), patch.v.local(at[1])];
         let (at, jet, taken) = foot_on_surface(&view, start, range, self.options.method, None);
         proof.evaluations += taken;
         proof.offer(Site { piece: k, at }, norm(jet.d));
@@ -305,19 +291,30 @@ impl SurfaceSearch<'_> {
             reach * reach * (1.0 + 32.0 * HALF_ULP)
         };
         self.index.tree.start(&mut workspace.queue);
+        workspace.deferred.clear();
         while let Some(next) = workspace.queue.pop() {
             if proof.is_trivial() || next.key > limit(proof) {
-                return;
+                break;
             }
             match next.piece() {
                 None => self.index.tree.open(next, self.query, limit(proof), &mut workspace.queue),
-                Some(k) => self.search(k, &mut workspace.patch, proof),
+                Some(k) => {
+                    if !self.search(k, PATIENCE, &mut workspace.patch, proof) {
+                        workspace.deferred.push(k);
+                    }
+                }
+            }
+        }
+        for &k in &workspace.deferred {
+            if !proof.is_trivial() {
+                self.search(k, u64::MAX, &mut workspace.patch, proof);
             }
         }
     }
 
-    fn search(&self, k: usize, memory: &mut PatchMemory, proof: &mut Proof) {
-        let Some(range) = self.local_range(k) else { return };
+    /// False when patience ran out before the patch was closed.
+    fn search(&self, k: usize, patience: u64, memory: &mut PatchMemory, proof: &mut Proof) -> bool {
+        let Some(range) = self.local_range(k) else { return true };
         let patch = &self.index.patches[k];
         let query = sub(self.query, patch.center);
         let position = position_error(self.steps, patch.radius, norm(query), norm(self.query));
@@ -332,7 +329,8 @@ impl SurfaceSearch<'_> {
             range,
             border: [0, 1, 2, 3].map(|e| patch.border[e] || cut[e]),
             method: self.options.method,
+            patience,
         };
-        search_patch(&sheet, memory, proof);
+        search_patch(&sheet, memory, proof)
     }
 }

@@ -1,11 +1,13 @@
 //! The index of a surface: its Bezier patches.
 
 use super::piece::{
-    Frame, LocalNet, MAX_TENSOR_BYTES, position_steps, push_tensors, reserved, tensor_len,
+    Frame, LocalNet, MAX_TENSOR_BYTES, Span, balance_for, parts_for, position_steps,
+    power_of_two_over, push_tensors, reserved, tensor_len,
 };
 use crate::bezier::{Bidegree, extraction};
-use crate::bounds::{Aabb, HALF_ULP, Vector, add, norm, sub};
+use crate::bounds::{Aabb, HALF_ULP, Vector, add, extent, norm, sub};
 use crate::error::Error;
+use crate::index::segments::pieces;
 use crate::jet::BezierPatch;
 use crate::knots::Knots;
 use crate::surface::Surface;
@@ -30,10 +32,10 @@ pub mod side {
 /// One Bezier patch; its numbers are in [`SurfaceIndex`]'s arrays.
 #[derive(Clone, Debug)]
 pub struct Patch {
-    /// Parameters at s = 0 and s = 1.
-    pub u: [f64; 2],
-    /// Parameters at t = 0 and t = 1.
-    pub v: [f64; 2],
+    /// Parameters of s.
+    pub u: Span,
+    /// Parameters of t.
+    pub v: Span,
     /// Origin of the patch's coordinates, in the index's coordinates.
     pub center: Vector,
     /// Greatest distance of a pole from `center`.
@@ -71,18 +73,18 @@ pub struct SurfaceIndex {
 
 /// One direction's spans with their extraction matrices.
 struct Direction {
-    spans: Vec<usize>,
+    spans: Vec<(usize, [f64; 2])>,
     matrices: Vec<f64>,
     size: usize,
 }
 
 impl Direction {
-    fn new(knots: &Knots) -> Self {
-        let spans: Vec<usize> = knots.spans().collect();
+    fn new(knots: &Knots, parts: usize) -> Self {
+        let spans = pieces(knots, parts);
         let size = knots.degree() + 1;
         let mut matrices = vec![0.0; spans.len() * size * size];
-        for (matrix, &span) in matrices.chunks_exact_mut(size * size).zip(&spans) {
-            extraction(knots, span, matrix);
+        for (matrix, &(span, ends)) in matrices.chunks_exact_mut(size * size).zip(&spans) {
+            extraction(knots, span, ends, matrix);
         }
         Self { spans, matrices, size }
     }
@@ -100,7 +102,9 @@ impl SurfaceIndex {
     /// [`Error::OutOfMemory`], [`Error::Cancelled`].
     pub fn new(surface: &Surface, poll: &mut dyn FnMut() -> bool) -> Result<Self, Error> {
         let rational = surface.is_rational();
-        let (u, v) = (Direction::new(surface.knots_u()), Direction::new(surface.knots_v()));
+        let [parts_u, parts_v] = if rational { parts(surface) } else { [1, 1] };
+        let u = Direction::new(surface.knots_u(), parts_u);
+        let v = Direction::new(surface.knots_v(), parts_v);
         let degree = Bidegree { s: u.size - 1, t: v.size - 1 };
         let (rows, columns) = (u.spans.len(), v.spans.len());
         let (count, width) = (rows * columns, degree.count() * if rational { 4 } else { 3 });
@@ -145,20 +149,21 @@ impl SurfaceIndex {
         (v, b): (&Direction, usize),
         collapsed: [bool; 4],
     ) -> Aabb {
-        let net = self.local_net(surface, u.spans[a], v.spans[b]);
+        let net = self.local_net(surface, u.spans[a].0, v.spans[b].0);
         let start = self.nets.len();
         let components = if self.rational { 4 } else { 3 };
         for component in &net.components[..components] {
             extract(component, u.matrix(a), u.size, v.matrix(b), v.size, &mut self.nets);
         }
-        let (side_u, side_v) =
-            (sides(surface.knots_u(), u.spans[a]), sides(surface.knots_v(), v.spans[b]));
+        let balance = self.balance(start);
+        let (border_u, border_v) =
+            (border(surface.knots_u(), u.spans[a].1), border(surface.knots_v(), v.spans[b].1));
         let mut patch = Patch {
-            u: side_u.0,
-            v: side_v.0,
+            u: Span { ends: u.spans[a].1, balance: balance[0] },
+            v: Span { ends: v.spans[b].1, balance: balance[1] },
             center: net.center,
             radius: net.radius,
-            border: [side_u.1[0], side_u.1[1], side_v.1[0], side_v.1[1]],
+            border: [border_u[0], border_u[1], border_v[0], border_v[1]],
             collapsed,
             spread: 0.0,
         };
@@ -169,6 +174,33 @@ impl SurfaceIndex {
         let margin = margin + patch.spread;
         self.patches.push(patch);
         aabb.grown(margin)
+    }
+
+    /// Balances the weights of the net that starts at `start`, by the product of the weights on opposite sides.
+    fn balance(&mut self, start: usize) -> [f64; 2] {
+        let (degree, count) = (self.degree, self.degree.count());
+        if !self.rational {
+            return [1.0; 2];
+        }
+        let w = &self.nets[start + 3 * count..];
+        let width = degree.t + 1;
+        let ratio = |first: f64, last: f64| last / first;
+        let corner = [w[0], w[degree.t], w[degree.s * width], w[count - 1]];
+        let balance = [
+            balance_for(ratio(corner[0] * corner[1], corner[2] * corner[3]).sqrt(), degree.s),
+            balance_for(ratio(corner[0] * corner[2], corner[1] * corner[3]).sqrt(), degree.t),
+        ];
+        if balance != [1.0; 2] {
+            let grown = |k: usize| {
+                balance[0].powi((k / width) as i32) * balance[1].powi((k % width) as i32)
+            };
+            let largest = (0..count).fold(0.0, |m: f64, k| m.max(w[k] * grown(k)));
+            let factor = power_of_two_over(largest);
+            for component in self.nets[start..].chunks_exact_mut(count) {
+                (0..count).for_each(|k| component[k] *= grown(k) * factor);
+            }
+        }
+        balance
     }
 
     fn local_net(&self, surface: &Surface, span_u: usize, span_v: usize) -> LocalNet {
@@ -241,12 +273,25 @@ impl SurfaceIndex {
     }
 }
 
-/// Parameters of a span's ends, and whether each is a border of the domain or a C0 knot.
-fn sides(knots: &Knots, span: usize) -> ([f64; 2], [bool; 2]) {
-    let ends = [knots.values()[span], knots.values()[span + 1]];
+/// Whether the ends of a piece are borders of the domain or C0 knots.
+fn border(knots: &Knots, ends: [f64; 2]) -> [bool; 2] {
     let (first, last) = knots.domain();
-    let border = ends.map(|u| u == first || u == last || knots.multiplicity(u) >= knots.degree());
-    (ends, border)
+    ends.map(|u| u == first || u == last || knots.multiplicity(u) >= knots.degree())
+}
+
+/// Into how many parts the spans of u and v are cut: by the weights' growth along each direction.
+fn parts(surface: &Surface) -> [usize; 2] {
+    let weights = surface.weights().unwrap_or(&[]);
+    let columns = surface.knots_v().pole_count();
+    let window = |w: &[f64]| {
+        let (low, high) = extent(w);
+        high / low
+    };
+    let size = [surface.knots_u().degree() + 1, surface.knots_v().degree() + 1];
+    let along_v = weights.chunks_exact(columns).flat_map(|row| row.windows(size[1]).map(window));
+    let column = |j: usize| weights.iter().skip(j).step_by(columns).copied().collect::<Vec<f64>>();
+    let along_u = (0..columns).map(|j| column(j).windows(size[0]).map(window).fold(1.0, f64::max));
+    [along_u.fold(1.0, f64::max), along_v.fold(1.0, f64::max)].map(parts_for)
 }
 
 /// Applies the two extraction matrices to one component of a local net and appends the Bezier poles.

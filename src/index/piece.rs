@@ -69,6 +69,70 @@ pub fn product_steps(terms: usize) -> f64 {
     (2 * terms + 24) as f64 * HALF_ULP
 }
 
+/// The parameters of a piece and its balance: local parameter x in [0, 1] stands for
+/// `u0 + (u1 - u0) a x / (1 - x + a x)`.
+///
+/// Weights that grow by a factor along a piece crowd its points at one end. The linear fractional map with the
+/// `a` that makes the ends' weights alike multiplies homogeneous pole `i` by `a^i`: a power of two, so that the poles
+/// keep their bits. Reference: Patterson, *Projective transformations of the parameter of a Bernstein-Bezier
+/// curve*, 1985.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// Parameters of the two ends.
+    pub ends: [f64; 2],
+    /// The factor `a`; 1 but for weights that differ much.
+    pub balance: f64,
+}
+
+impl Span {
+    /// The caller's parameter of a local one; the ends come out exactly.
+    pub fn global(&self, x: f64) -> f64 {
+        let [u0, u1] = self.ends;
+        if x == 0.0 {
+            return u0;
+        }
+        if x == 1.0 {
+            return u1;
+        }
+        let s =
+            if self.balance == 1.0 { x } else { self.balance * x / ((1.0 - x) + self.balance * x) };
+        (u0 + s * (u1 - u0)).clamp(u0, u1)
+    }
+
+    /// The local parameter of the caller's one, moved into [0, 1].
+    pub fn local(&self, u: f64) -> f64 {
+        let [u0, u1] = self.ends;
+        if u <= u0 {
+            return 0.0;
+        }
+        if u >= u1 {
+            return 1.0;
+        }
+        let s = (u - u0) / (u1 - u0);
+        if self.balance == 1.0 { s } else { s / (self.balance * (1.0 - s) + s) }
+    }
+}
+
+/// Weights that differ by less than this factor within a piece are left as they are: halving in the search copes.
+const CALM: f64 = 64.0;
+
+/// Into how many equal parts a span is cut before the search, for weights that differ by `ratio` along it.
+///
+/// Coefficients of products of weights far apart say little about the shape between them; parts, balanced, do.
+pub fn parts_for(ratio: f64) -> usize {
+    if ratio <= CALM { 1 } else { 8 }
+}
+
+/// The power of two that balances weights whose ends differ by `ratio` (last over first) in degree `degree`.
+pub fn balance_for(ratio: f64, degree: usize) -> f64 {
+    let exponent = |x: f64| ((x.to_bits() >> 52) & 0x7ff) as i64 - 1023;
+    let steps = exponent(ratio).clamp(-600, 600);
+    let each = (steps.abs() + degree as i64 / 2) / degree as i64;
+    let each = (each.min(900 / degree as i64) as i32) * steps.signum() as i32;
+    // The map's factor undoes the growth.
+    2.0f64.powi(-each)
+}
+
 /// The B-spline poles that shape one piece, recentred and weighted, component by component.
 pub struct LocalNet {
     /// x, y, z and, when rational, w.

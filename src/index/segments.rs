@@ -1,20 +1,22 @@
 //! The index of a curve: its Bezier segments.
 
 use super::piece::{
-    Frame, LocalNet, MAX_TENSOR_BYTES, position_steps, push_tensors, reserved, tensor_len,
+    Frame, LocalNet, MAX_TENSOR_BYTES, Span, balance_for, parts_for, position_steps,
+    power_of_two_over, push_tensors, reserved, tensor_len,
 };
 use crate::bezier::{Bidegree, extraction};
-use crate::bounds::{Aabb, HALF_ULP, Vector, add};
+use crate::bounds::{Aabb, HALF_ULP, Vector, add, extent};
 use crate::curve::Curve;
 use crate::error::Error;
 use crate::jet::BezierSegment;
+use crate::knots::Knots;
 use crate::tree::Tree;
 
 /// One Bezier segment; its numbers are in [`CurveIndex`]'s arrays.
 #[derive(Clone, Debug)]
 pub struct Segment {
-    /// Parameters of the two ends.
-    pub u: [f64; 2],
+    /// Parameters.
+    pub u: Span,
     /// Origin of the segment's coordinates, in the index's coordinates.
     pub center: Vector,
     /// Greatest distance of a pole from `center`.
@@ -48,7 +50,7 @@ impl CurveIndex {
     pub fn new(curve: &Curve, poll: &mut dyn FnMut() -> bool) -> Result<Self, Error> {
         let (p, rational) = (curve.degree(), curve.is_rational());
         let knots = curve.knots();
-        let spans: Vec<usize> = knots.spans().collect();
+        let spans = pieces(knots, parts_for(if rational { weight_ratio(curve) } else { 1.0 }));
         let width = (p + 1) * if rational { 4 } else { 3 };
         let degree = Bidegree { s: 0, t: p };
         let tensor_width = tensor_len(degree, rational);
@@ -78,7 +80,7 @@ impl CurveIndex {
         Ok(index)
     }
 
-    fn push_segment(&mut self, curve: &Curve, span: usize) -> Aabb {
+    fn push_segment(&mut self, curve: &Curve, (span, ends): (usize, [f64; 2])) -> Aabb {
         let (p, knots) = (self.degree, curve.knots());
         // Equal weights are no weights: the curve says so, and then they must not scale the poles.
         let weights = curve.weights().filter(|_| self.rational);
@@ -87,7 +89,7 @@ impl CurveIndex {
             (span - p..=span).map(|i| (self.frame.enter(curve.poles()[i]), weight(i))).collect();
         let net = LocalNet::new(&local);
         let mut matrix = vec![0.0; (p + 1) * (p + 1)];
-        extraction(knots, span, &mut matrix);
+        extraction(knots, span, ends, &mut matrix);
         let mut aabb = Aabb::EMPTY;
         let start = self.nets.len();
         let components = if self.rational { 4 } else { 3 };
@@ -96,18 +98,37 @@ impl CurveIndex {
                 self.nets.push(row.iter().zip(component).map(|(m, x)| m * x).sum());
             }
         }
+        let balance = self.balance(start);
         let poles = &self.nets[start..];
         for i in 0..=p {
             let w = if self.rational { poles[3 * (p + 1) + i] } else { 1.0 };
             let at = |c: usize| poles[c * (p + 1) + i] / w;
             aabb.include(add(net.center, [at(0), at(1), at(2)]));
         }
-        let (u0, u1) = (knots.values()[span], knots.values()[span + 1]);
         let (first, last) = knots.domain();
-        let border =
-            [u0 == first || knots.multiplicity(u0) >= p, u1 == last || knots.multiplicity(u1) >= p];
-        self.segments.push(Segment { u: [u0, u1], center: net.center, radius: net.radius, border });
+        let border = ends.map(|u| u == first || u == last || knots.multiplicity(u) >= p);
+        let u = Span { ends, balance };
+        self.segments.push(Segment { u, center: net.center, radius: net.radius, border });
         aabb.grown(position_steps(p) * net.radius + 8.0 * HALF_ULP)
+    }
+
+    /// Balances the weights of the net that starts at `start`; returns the factor.
+    fn balance(&mut self, start: usize) -> f64 {
+        let p = self.degree;
+        if !self.rational {
+            return 1.0;
+        }
+        let w = &self.nets[start + 3 * (p + 1)..];
+        let balance = balance_for(w[p] / w[0], p);
+        if balance != 1.0 {
+            let grown = |i: usize| balance.powi(i as i32);
+            let largest = (0..=p).fold(0.0, |m: f64, i| m.max(w[i] * grown(i)));
+            let factor = power_of_two_over(largest);
+            for component in self.nets[start..].chunks_exact_mut(p + 1) {
+                (0..=p).for_each(|i| component[i] *= grown(i) * factor);
+            }
+        }
+        balance
     }
 
     /// Degree of the segments.
@@ -134,4 +155,35 @@ impl CurveIndex {
             + self.segments.capacity() * size_of::<Segment>()
             + self.tree.memory()
     }
+}
+
+/// The spans of a knot vector, each cut into `parts`, with their ends.
+pub fn pieces(knots: &Knots, parts: usize) -> Vec<(usize, [f64; 2])> {
+    let mut list = Vec::new();
+    for span in knots.spans() {
+        let (a, b) = (knots.values()[span], knots.values()[span + 1]);
+        let cut = |k: usize| match k {
+            0 => a,
+            k if k == parts => b,
+            k => a + (b - a) * (k as f64 / parts as f64),
+        };
+        // Spans of a few ulps cannot be cut: their parts would be empty.
+        let list_of = |n: usize| (0..n).map(|k| (span, [cut(k), cut(k + 1)]));
+        if list_of(parts).all(|(_, [a, b])| a < b) {
+            list.extend(list_of(parts));
+        } else {
+            list.push((span, [a, b]));
+        }
+    }
+    list
+}
+
+/// Greatest ratio of two weights that shape one span.
+fn weight_ratio(curve: &Curve) -> f64 {
+    let weights = curve.weights().unwrap_or(&[]);
+    let ratio = |w: &[f64]| {
+        let (low, high) = extent(w);
+        high / low
+    };
+    weights.windows(curve.degree() + 1).map(ratio).fold(1.0, f64::max)
 }
