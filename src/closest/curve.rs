@@ -223,7 +223,7 @@ impl CurveSearch<'_> {
         let start = segment.u.local(u);
         let (s, jet, taken) = foot_on_curve(&view, start, range, self.options.method, None);
         proof.evaluations += taken;
-        proof.offer(Site { piece: k, at: [s, 0.0] }, norm(jet.d));
+        proof.offer(Site { piece: k, at: [s, 0.0] }, jet.d);
     }
 
     fn walk(&self, workspace: &mut Workspace, proof: &mut Proof) {

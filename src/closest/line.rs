@@ -218,7 +218,7 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         let s = if end == 0 { interval.low } else { interval.high };
         let jet = self.line.segment.jet(s, self.line.query);
         self.proof.evaluations += 1;
-        self.proof.offer((self.line.site)(s), norm(jet.d));
+        self.proof.offer((self.line.site)(s), jet.d);
     }
 
     /// Coefficients of `N - mu C` into half `part` of the scratch memory.
@@ -267,7 +267,7 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
             }
         };
         self.proof.evaluations += taken;
-        self.proof.offer((self.line.site)(s), norm(jet.d));
+        self.proof.offer((self.line.site)(s), jet.d);
         (s, jet)
     }
 
@@ -333,7 +333,8 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
             cut(component, p, 1, 1, interval.low, interval.high);
         }
         let radius = subtract_query(net, size, self.line.query);
-        if plane_separates(net, size, self.proof.target, self.line.position) {
+        if self.proof.best.is_finite() && plane_separates(net, size, self.proof, self.line.position)
+        {
             return true;
         }
         let slot = &mut self.memory.coefficients[at * self.slot..(at + 1) * self.slot];
@@ -392,19 +393,43 @@ pub fn subtract_query(net: &mut [f64], count: usize, query: Vector) -> f64 {
     greatest.sqrt() * (1.0 + 8.0 * HALF_ULP)
 }
 
-/// Whether a plane at distance `target` from the query has all of the net on its other side.
+/// Whether a plane at the proof's target from the query has all of a net on its other side. `net` holds `r` and `W`.
 ///
-/// The normal is the direction of the summed net: the linear form has no squares, so it works down to rounding.
-pub fn plane_separates(net: &[f64], count: usize, target: f64, position: f64) -> bool {
-    let n = [0, 1, 2].map(|c| net[c * count..(c + 1) * count].iter().sum::<f64>());
-    let size = norm(n);
-    if size == 0.0 || !size.is_finite() {
-        return false;
+/// Two normals are tried: that to the best foot, and that of the summed net. The linear form has no squares, so it
+/// works down to rounding; on the convex side of a shape it closes whole pieces at once.
+pub fn plane_separates(net: &[f64], count: usize, proof: &Proof, position: f64) -> bool {
+    let least = (proof.target + 2.0 * position) * (1.0 + 32.0 * HALF_ULP);
+    let (xyz, w) = net.split_at(3 * count);
+    let beyond = |n: Vector| {
+        (0..count).all(|k| {
+            n[0] * xyz[k] + n[1] * xyz[count + k] + n[2] * xyz[2 * count + k] > least * w[k]
+        })
+    };
+    if beyond(proof.direction) {
+        return true;
     }
-    let n = n.map(|x| x / size);
-    let least = (target + 2.0 * position) * (1.0 + 32.0 * HALF_ULP);
-    let height = |k: usize| n[0] * net[k] + n[1] * net[count + k] + n[2] * net[2 * count + k];
-    (0..count).all(|k| height(k) > least * net[3 * count + k])
+    let n = [0, 1, 2].map(|c| xyz[c * count..(c + 1) * count].iter().sum::<f64>());
+    let size = norm(n);
+    size > 0.0 && size.is_finite() && beyond(n.map(|x| x / size))
+}
+
+/// As [`plane_separates`] with the normal to the best foot, for poles `X` (and `W` when rational).
+pub fn foot_plane_separates(
+    poles: &[f64],
+    count: usize,
+    rational: bool,
+    query: Vector,
+    proof: &Proof,
+    position: f64,
+) -> bool {
+    let n = proof.direction;
+    let least = (proof.target + 2.0 * position) * (1.0 + 32.0 * HALF_ULP) + dot(n, query);
+    let height = |k: usize| n[0] * poles[k] + n[1] * poles[count + k] + n[2] * poles[2 * count + k];
+    if rational {
+        (0..count).all(|k| height(k) > least * poles[3 * count + k])
+    } else {
+        (0..count).all(|k| height(k) > least)
+    }
 }
 
 /// Coefficients of `|r|^2` and, when the slot has room for it, of `W^2`.

@@ -5,8 +5,8 @@
 //! and off that side the sign of the derivative of the distance itself is used (see [`Walk::turning`]).
 
 use super::line::{
-    Given, Line, LineMemory, free_slope, plane_separates, search_line, slope_error, square,
-    subtract_query, value_at,
+    Given, Line, LineMemory, foot_plane_separates, free_slope, plane_separates, search_line,
+    slope_error, square, subtract_query, value_at,
 };
 use super::proof::{Proof, Site, squared_error};
 use crate::bezier::{Bidegree, convolve, cut, halve_s, halve_t, scale_down_2d, scale_up_2d};
@@ -122,6 +122,20 @@ impl Walk<'_, '_, '_> {
         let mut first = Area { s: [s0, s1], t: [t0, t1], ..Area::default() };
         self.proof.spread = self.proof.spread.max(self.sheet.patch.spread);
         self.look_at_collapsed_sides();
+        let net = &self.sheet.net;
+        let (query, position) = (self.sheet.query, self.sheet.position);
+        if self.proof.best.is_finite()
+            && foot_plane_separates(
+                net.poles,
+                net.degree.count(),
+                net.rational,
+                query,
+                self.proof,
+                position,
+            )
+        {
+            return true;
+        }
         let whole = self.sheet.range == [0.0, 1.0, 0.0, 1.0];
         match self.sheet.tensors {
             Some(tensors) if whole => self.multiply(tensors, &mut first),
@@ -170,7 +184,7 @@ impl Walk<'_, '_, '_> {
     fn look_at(&mut self, at: [f64; 2]) -> Jet2 {
         let jet = self.sheet.net.jet(at[0], at[1], self.sheet.query);
         self.proof.evaluations += 1;
-        self.proof.offer(Site { piece: self.sheet.piece, at }, norm(jet.d));
+        self.proof.offer(Site { piece: self.sheet.piece, at }, jet.d);
         jet
     }
 
@@ -441,7 +455,7 @@ impl Walk<'_, '_, '_> {
             }
         };
         self.proof.evaluations += taken;
-        self.proof.offer(Site { piece: self.sheet.piece, at }, norm(jet.d));
+        self.proof.offer(Site { piece: self.sheet.piece, at }, jet.d);
         (at, jet)
     }
 
@@ -544,57 +558,59 @@ impl Walk<'_, '_, '_> {
         weight: f64,
     ) -> Option<f64> {
         let mut memory = std::mem::take(&mut self.memory.turning);
-        let (low, high, allowance) =
-            self.turning_extent(area, at, k, direction, weight, &mut memory);
+        let slope_degree = lowered(self.degree, direction);
+        let n_degree = if direction == 0 { self.degree.s } else { self.degree.t } as f64;
+        memory.clear();
+        derivative(self.n(at), self.degree, direction, &mut memory);
+        let ((low, high), allowance) = if self.sheet.net.rational {
+            let extent = self.rational_turning(area, at, k, direction, &mut memory);
+            let steps = product_steps(2 * self.sheet.net.degree.count());
+            let size = area.radius * area.radius * weight;
+            (extent.0, 8.0 * n_degree * extent.1 * (area.error * weight + steps * size))
+        } else {
+            (extent_off_side(&memory, slope_degree, k), 2.0 * n_degree * area.error)
+        };
         self.memory.turning = memory;
         if low > allowance { Some(1.0) } else { (high < -allowance).then_some(-1.0) }
     }
 
-    fn turning_extent(
-        &mut self,
+    /// Extent of the coefficients of `W N_s - 2 N W_s` off side `k`, and the greatest W. `memory` holds N_s.
+    fn rational_turning(
+        &self,
         area: &Area,
         at: usize,
         k: usize,
         direction: usize,
-        weight: f64,
         memory: &mut Vec<f64>,
-    ) -> (f64, f64, f64) {
-        let slope_degree = lowered(self.degree, direction);
-        let slope_n = derivative(self.n(at), self.degree, direction);
-        let n_degree = if direction == 0 { self.degree.s } else { self.degree.t } as f64;
-        if !self.sheet.net.rational {
-            let (low, high) = extent_off_side(&slope_n, slope_degree, k);
-            return (low, high, 2.0 * n_degree * area.error);
-        }
+    ) -> ((f64, f64), f64) {
         let net_degree = self.sheet.net.degree;
-        let w = self.weights_on(area);
-        let slope_w = derivative(&w, net_degree, direction);
+        let slope_degree = lowered(self.degree, direction);
+        let net_slope_degree = lowered(net_degree, direction);
         let total = slope_degree.times(net_degree);
-        memory.clear();
-        memory.resize(total.count(), 0.0);
-        let mut up = |f: &[f64], df: Bidegree, g: &[f64], dg: Bidegree, sign: f64| {
-            let (mut f, mut g) = (f.to_vec(), g.to_vec());
-            scale_up_2d(&mut f, df);
-            scale_up_2d(&mut g, dg);
-            convolve(&f, df, &g, dg, sign, memory);
-        };
-        up(&slope_n, slope_degree, &w, net_degree, 1.0);
-        up(self.n(at), self.degree, &slope_w, lowered(net_degree, direction), -2.0);
-        scale_down_2d(memory, total);
-        let (low, high) = extent_off_side(memory, total, k);
-        let greatest = extent(&w).1;
-        let steps = product_steps(2 * net_degree.count());
-        let size = area.radius * area.radius * weight;
-        let allowance = 8.0 * n_degree * greatest * (area.error * weight + steps * size);
-        (low, high, allowance)
-    }
-
-    /// Coefficients of W on the area.
-    fn weights_on(&self, area: &Area) -> Vec<f64> {
-        let degree = self.sheet.net.degree;
-        let mut w = self.sheet.net.poles[3 * degree.count()..].to_vec();
-        cut_area(&mut w, degree, area);
-        w
+        let slope_end = memory.len();
+        memory.extend_from_slice(&self.sheet.net.poles[3 * net_degree.count()..]);
+        cut_area(&mut memory[slope_end..], net_degree, area);
+        let w_end = memory.len();
+        let greatest = extent(&memory[slope_end..]).1;
+        for x in 0..net_slope_degree.count() {
+            memory.push(derivative_at(&memory[slope_end..w_end], net_degree, direction, x));
+        }
+        let slope_w_end = memory.len();
+        memory.extend_from_slice(self.n(at));
+        let n_end = memory.len();
+        memory.resize(n_end + total.count(), 0.0);
+        let (factors, product) = memory.split_at_mut(n_end);
+        let (slope_n, rest) = factors.split_at_mut(slope_end);
+        let (w, rest) = rest.split_at_mut(w_end - slope_end);
+        let (slope_w, n) = rest.split_at_mut(slope_w_end - w_end);
+        scale_up_2d(slope_n, slope_degree);
+        scale_up_2d(w, net_degree);
+        scale_up_2d(slope_w, net_slope_degree);
+        scale_up_2d(n, self.degree);
+        convolve(slope_n, slope_degree, w, net_degree, 1.0, product);
+        convolve(n, self.degree, slope_w, net_slope_degree, -2.0, product);
+        scale_down_2d(product, total);
+        (extent_off_side(product, total, k), greatest)
     }
 
     /// Rebuilds the coefficients of slot `at` from the poles; true when a plane already separates the query.
@@ -609,8 +625,8 @@ impl Walk<'_, '_, '_> {
             cut_area(component, degree, area);
         }
         let radius = subtract_query(net, count, self.sheet.query);
-        if self.proof.target.is_finite()
-            && plane_separates(net, count, self.proof.target, self.sheet.position)
+        if self.proof.best.is_finite()
+            && plane_separates(net, count, self.proof, self.sheet.position)
         {
             return true;
         }
@@ -682,15 +698,20 @@ fn lowered(degree: Bidegree, direction: usize) -> Bidegree {
     }
 }
 
-/// Bernstein coefficients of a partial derivative.
-fn derivative(f: &[f64], degree: Bidegree, direction: usize) -> Vec<f64> {
+/// Appends the Bernstein coefficients of a partial derivative to `out`.
+fn derivative(f: &[f64], degree: Bidegree, direction: usize, out: &mut Vec<f64>) {
+    let count = lowered(degree, direction).count();
+    out.extend((0..count).map(|x| derivative_at(f, degree, direction, x)));
+}
+
+/// Coefficient `x` of a partial derivative.
+fn derivative_at(f: &[f64], degree: Bidegree, direction: usize, x: usize) -> f64 {
     let width = degree.t + 1;
     if direction == 0 {
-        let n = degree.s as f64;
-        return f.iter().zip(&f[width..]).map(|(a, b)| n * (b - a)).collect();
+        return degree.s as f64 * (f[x + width] - f[x]);
     }
-    let n = degree.t as f64;
-    f.chunks_exact(width).flat_map(|row| row.windows(2).map(move |w| n * (w[1] - w[0]))).collect()
+    let from = (x / degree.t) * width + x % degree.t;
+    degree.t as f64 * (f[from + 1] - f[from])
 }
 
 /// Extent of the coefficients that do not belong to side `k`.

@@ -1,6 +1,6 @@
 //! The state of one query: the best foot so far, what is proven, what was given up.
 
-use crate::bounds::HALF_ULP;
+use crate::bounds::{HALF_ULP, Vector, norm, scaled};
 
 /// Where the best foot lies: a piece and its local parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +22,8 @@ pub struct Proof<'t> {
     pub best: f64,
     /// Where.
     pub site: Option<Site>,
+    /// Unit vector from the query to the best foot.
+    pub direction: Vector,
     /// What must be proven everywhere: `best - gap`, at least zero.
     pub target: f64,
     /// An upper bound of the target's square.
@@ -52,6 +54,7 @@ impl<'t> Proof<'t> {
             gap,
             best: f64::INFINITY,
             site: None,
+            direction: [0.0; 3],
             target: f64::INFINITY,
             target_squared: f64::INFINITY,
             lower: f64::INFINITY,
@@ -64,16 +67,17 @@ impl<'t> Proof<'t> {
         }
     }
 
-    /// Takes a foot that is nearer than the best; tells whether it was.
-    pub fn offer(&mut self, site: Site, distance: f64) -> bool {
+    /// Takes the foot at `site`, `d` away from the query, if it is nearer than the best.
+    pub fn offer(&mut self, site: Site, d: Vector) {
+        let distance = norm(d);
         if distance.is_nan() || distance >= self.best {
-            return false;
+            return;
         }
         self.best = distance;
+        self.direction = scaled(d, 1.0 / distance);
         self.site = Some(site);
         self.target = (distance - self.gap).max(0.0);
         self.target_squared = self.target * self.target * (1.0 + 8.0 * HALF_ULP);
-        true
     }
 
     /// Whether nothing is left to prove: every shape is at least zero away.

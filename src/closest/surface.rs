@@ -281,7 +281,7 @@ impl SurfaceSearch<'_> {
         let start = [patch.u.local(at[0]), patch.v.local(at[1])];
         let (at, jet, taken) = foot_on_surface(&view, start, range, self.options.method, None);
         proof.evaluations += taken;
-        proof.offer(Site { piece: k, at }, norm(jet.d));
+        proof.offer(Site { piece: k, at }, jet.d);
     }
 
     fn walk(&self, workspace: &mut Workspace, proof: &mut Proof) {
