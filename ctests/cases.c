@@ -210,7 +210,9 @@ static void check_hinted(const char *name, const struct shape *shape, const stru
         CHECK_MESSAGE(fabs(out[i].distance - expected[i].distance) <= limit, "%s row %zu: a hint changed %.17g to %.17g",
                       name, i, expected[i].distance, out[i].distance);
         CHECK_MESSAGE(((out[i].flags ^ expected[i].flags) & FPT_FOOT_NOT_PROVEN) == 0,
-                      "%s row %zu: a hint changed whether the answer is proven", name, i);
+                      "%s row %zu: a hint changed %s to %s", name, i,
+                      expected[i].flags & FPT_FOOT_NOT_PROVEN ? "not proven" : "proven",
+                      out[i].flags & FPT_FOOT_NOT_PROVEN ? "not proven" : "proven");
     }
     free(out);
     free(hints);
