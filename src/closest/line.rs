@@ -218,7 +218,8 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         let s = if end == 0 { interval.low } else { interval.high };
         let jet = self.line.segment.jet(s, self.line.query);
         self.proof.evaluations += 1;
-        self.proof.offer((self.line.site)(s), jet.d);
+        self.proof.rival(jet.d);
+        self.proof.offer((self.line.site)(s), jet.d, || None);
     }
 
     /// Coefficients of `N - mu C` into half `part` of the scratch memory.
@@ -237,7 +238,7 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
     /// The end at which `h` is least, when it is strictly monotone for every squared distance that a nearest
     /// point in this interval can have.
     fn monotone(&mut self, interval: &Interval, at: usize, least: f64) -> Option<usize> {
-        let reach = self.proof.best + self.line.position;
+        let reach = self.proof.best + self.proof.gap;
         self.form(at, 0, (least - interval.error).max(0.0));
         self.form(at, 1, reach * reach);
         let allowance = 2.0 * interval.error * self.greatest_weight(at);
@@ -267,7 +268,14 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
             }
         };
         self.proof.evaluations += taken;
-        self.proof.offer((self.line.site)(s), jet.d);
+        if (s > low || low == self.line.range[0]) && (s < high || high == self.line.range[1]) {
+            self.proof.rival(jet.d);
+        }
+        let along = || {
+            let (a, b) = ((self.line.site)(0.0).at, (self.line.site)(1.0).at);
+            jet.is_flat().then_some([b[0] - a[0], b[1] - a[1]])
+        };
+        self.proof.offer((self.line.site)(s), jet.d, along);
         (s, jet)
     }
 

@@ -184,7 +184,7 @@ impl Walk<'_, '_, '_> {
     fn look_at(&mut self, at: [f64; 2]) -> Jet2 {
         let jet = self.sheet.net.jet(at[0], at[1], self.sheet.query);
         self.proof.evaluations += 1;
-        self.proof.offer(Site { piece: self.sheet.piece, at }, jet.d);
+        self.proof.offer(Site { piece: self.sheet.piece, at }, jet.d, || None);
         jet
     }
 
@@ -313,7 +313,7 @@ impl Walk<'_, '_, '_> {
 
     /// First differences of `h` over every squared distance that a nearest point in this area can have.
     fn slopes(&mut self, area: &Area, at: usize, least: f64) -> Slopes {
-        let reach = self.proof.best + self.sheet.position;
+        let reach = self.proof.best + self.proof.gap;
         self.form(at, 0, (least - area.error).max(0.0));
         let parts = if self.sheet.net.rational { 2 } else { 1 };
         if parts == 2 {
@@ -455,7 +455,15 @@ impl Walk<'_, '_, '_> {
             }
         };
         self.proof.evaluations += taken;
-        self.proof.offer(Site { piece: self.sheet.piece, at }, jet.d);
+        let inner = |k: usize| {
+            let [low, high] = [range[2 * k], range[2 * k + 1]];
+            (at[k] > low || low == self.sheet.range[2 * k])
+                && (at[k] < high || high == self.sheet.range[2 * k + 1])
+        };
+        if inner(0) && inner(1) {
+            self.proof.rival(jet.d);
+        }
+        self.proof.offer(Site { piece, at }, jet.d, || jet.flat_direction());
         (at, jet)
     }
 
