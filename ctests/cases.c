@@ -188,7 +188,9 @@ static const char *fault_of(const struct shape *shape, const double domain[4], c
     if (!(foot->distance <= row->distance + limit)) return "farther than the truth";
     if (!(foot->lower_bound >= 0 && foot->lower_bound <= foot->distance)) return "lower bound out of order";
     if (!(foot->lower_bound <= row->distance + 1e-12 * shape->diagonal + rounding)) return "lower bound above the truth";
-    if (!(foot->flags & FPT_FOOT_NOT_PROVEN) && !(foot->distance - foot->lower_bound <= limit)) return "gap without its flag";
+    if (!(foot->flags & FPT_FOOT_NOT_PROVEN) && !(foot->distance - foot->lower_bound <= 1e-9 * shape->diagonal + limit)) {
+        return "gap without its flag";
+    }
     return NULL;
 }
 

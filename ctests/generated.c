@@ -182,7 +182,7 @@ static void check_record(const struct shape *s, const double query[3], int on_sh
                   foot->lower_bound, foot->distance);
     CHECK_MESSAGE(foot->lower_bound <= least + 1e-12 * s->diagonal + rounding, "%s: bound %.12g above a sample at %.12g",
                   s->name, foot->lower_bound, least);
-    CHECK_MESSAGE((foot->flags & FPT_FOOT_NOT_PROVEN) || foot->distance - foot->lower_bound <= limit,
+    CHECK_MESSAGE((foot->flags & FPT_FOOT_NOT_PROVEN) || foot->distance - foot->lower_bound <= 1e-9 * s->diagonal + limit,
                   "%s: gap %g without its flag", s->name, foot->distance - foot->lower_bound);
 }
 
