@@ -14,11 +14,20 @@
 //! Limits: a query whose foot is degenerate along a whole curve without being exactly constant may exhaust the
 //! budget; it is then marked, never guessed.
 
-mod curve;
-mod line;
-mod local;
-mod patch;
 mod proof;
+
+mod certificate;
+
+mod line;
+
+mod collapsed;
+
+mod patch;
+
+mod local;
+
+mod curve;
+
 mod surface;
 
 use crate::bounds::{HALF_ULP, Vector, norm, sub};

@@ -1,8 +1,9 @@
 //! Nearest point of a curve.
 
+use super::certificate::squared_error;
 use super::line::{Given, Line, LineMemory, search_line};
 use super::local::{LOCAL_FLAGS, WholeCurve, curve_start};
-use super::proof::{Proof, Site, Watch, squared_error};
+use super::proof::{Proof, Site, Watch};
 use super::{
     CONTINUUM_STEPS, FootPoint, MOST_GRAIN, QueryOptions, Scope, Workspace, certify,
     default_budget, distance, flag, is_bad, mark_inversion, rounding_floor, ulp,

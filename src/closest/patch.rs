@@ -4,12 +4,14 @@
 //! At a collapsed side the derivative along it vanishes for every shape: the collapsed point is looked at once,
 //! and off that side the sign of the derivative of the distance itself is used (see [`Walk::turning`]).
 
-use super::line::{
-    Given, Line, LineMemory, foot_plane_separates, free_slope, plane_separates, search_line,
-    slope_error, square, subtract_query, value_at,
+use super::certificate::{
+    foot_plane_separates, free_slope, plane_separates, slope_error, square, squared_error,
+    subtract_query, value_at,
 };
-use super::proof::{Proof, Site, squared_error};
-use crate::bezier::{Bidegree, convolve, cut, halve_s, halve_t, scale_down_2d, scale_up_2d};
+use super::collapsed::{along, rational_slope_extent, slope_extent};
+use super::line::{Given, Line, LineMemory, search_line};
+use super::proof::{Proof, Site};
+use crate::bezier::{Bidegree, cut, halve_s, halve_t};
 use crate::bounds::{HALF_ULP, Vector, dot, extent, norm};
 use crate::index::{Patch, product_steps, side};
 use crate::jet::{BezierPatch, BezierSegment, Jet2};
@@ -63,6 +65,7 @@ pub struct PatchMemory {
     h: Vec<f64>,
     edge: Vec<f64>,
     turning: Vec<f64>,
+    weights: Vec<f64>,
     line: LineMemory,
 }
 
@@ -541,84 +544,46 @@ impl Walk<'_, '_, '_> {
         value > 0.0 && loss <= 2.0 * value * (1.0 - 1e-10)
     }
 
-    /// At a collapsed side: whether the distance changes strictly along the side everywhere off it.
-    ///
-    /// With `f = N / C` the sign of `f_s` is that of `W N_s - 2 N W_s`, whose first row of coefficients vanishes
-    /// on the side; all the others must keep one sign. Then only the collapsed point or a border can be nearest.
+    /// At a collapsed side: whether the distance changes strictly along the side everywhere off it (see
+    /// `collapsed`). Then only the collapsed point or a border can be nearest.
     fn turning(&mut self, area: &Area, at: usize, weight: f64) -> bool {
         let ends = [area.s[0], area.s[1], area.t[0], area.t[1]];
         let touched =
             (0..4).find(|&k| self.sheet.patch.collapsed[k] && ends[k] == [0.0, 1.0, 0.0, 1.0][k]);
         let Some(k) = touched else { return false };
-        let direction = if k >= side::T0 { 0 } else { 1 };
-        let Some(sign) = self.turning_sign(area, at, k, direction, weight) else { return false };
-        self.follow_side(area, at, 2 * direction + usize::from(sign < 0.0));
-        true
+        let ((low, high), allowance) = self.turning_extent(area, at, k, weight);
+        if low > allowance || high < -allowance {
+            self.follow_side(area, at, 2 * along(k) + usize::from(high < 0.0));
+            return true;
+        }
+        false
     }
 
-    /// The sign of `f` along `direction` off the collapsed side `k`, when it is strict.
-    fn turning_sign(
+    /// Extent of the slope along side `k` off that side, and its rounding.
+    fn turning_extent(
         &mut self,
         area: &Area,
         at: usize,
         k: usize,
-        direction: usize,
         weight: f64,
-    ) -> Option<f64> {
+    ) -> ((f64, f64), f64) {
         let mut memory = std::mem::take(&mut self.memory.turning);
-        let slope_degree = lowered(self.degree, direction);
-        let n_degree = if direction == 0 { self.degree.s } else { self.degree.t } as f64;
-        memory.clear();
-        derivative(self.n(at), self.degree, direction, &mut memory);
-        let ((low, high), allowance) = if self.sheet.net.rational {
-            let extent = self.rational_turning(area, at, k, direction, &mut memory);
-            let steps = product_steps(2 * self.sheet.net.degree.count());
-            let size = area.radius * area.radius * weight;
-            (extent.0, 8.0 * n_degree * extent.1 * (area.error * weight + steps * size))
+        let n_degree = [self.degree.s, self.degree.t][along(k)] as f64;
+        let found = if self.sheet.net.rational {
+            let net = self.sheet.net.degree;
+            let w = &mut self.memory.weights;
+            w.clear();
+            w.extend_from_slice(&self.sheet.net.poles[3 * net.count()..]);
+            cut_area(w, net, area);
+            let n = &self.memory.coefficients[at * self.slot..at * self.slot + self.count];
+            let found = rational_slope_extent(n, w, net, k, &mut memory);
+            let size = product_steps(2 * net.count()) * area.radius * area.radius;
+            (found, 8.0 * n_degree * extent(w).1 * weight * (area.error + size))
         } else {
-            (extent_off_side(&memory, slope_degree, k), 2.0 * n_degree * area.error)
+            (slope_extent(self.n(at), self.degree, k, &mut memory), 2.0 * n_degree * area.error)
         };
         self.memory.turning = memory;
-        if low > allowance { Some(1.0) } else { (high < -allowance).then_some(-1.0) }
-    }
-
-    /// Extent of the coefficients of `W N_s - 2 N W_s` off side `k`, and the greatest W. `memory` holds N_s.
-    fn rational_turning(
-        &self,
-        area: &Area,
-        at: usize,
-        k: usize,
-        direction: usize,
-        memory: &mut Vec<f64>,
-    ) -> ((f64, f64), f64) {
-        let net_degree = self.sheet.net.degree;
-        let slope_degree = lowered(self.degree, direction);
-        let net_slope_degree = lowered(net_degree, direction);
-        let total = slope_degree.times(net_degree);
-        let slope_end = memory.len();
-        memory.extend_from_slice(&self.sheet.net.poles[3 * net_degree.count()..]);
-        cut_area(&mut memory[slope_end..], net_degree, area);
-        let w_end = memory.len();
-        let greatest = extent(&memory[slope_end..]).1;
-        for x in 0..net_slope_degree.count() {
-            memory.push(derivative_at(&memory[slope_end..w_end], net_degree, direction, x));
-        }
-        let slope_w_end = memory.len();
-        memory.extend_from_slice(self.n(at));
-        let n_end = memory.len();
-        memory.resize(n_end + total.count(), 0.0);
-        let (factors, product) = memory.split_at_mut(n_end);
-        let (slope_n, rest) = factors.split_at_mut(slope_end);
-        let (w, rest) = rest.split_at_mut(w_end - slope_end);
-        let (slope_w, n) = rest.split_at_mut(slope_w_end - w_end);
-        scale_up_2d(slope_n, slope_degree);
-        scale_up_2d(w, net_degree);
-        scale_up_2d(slope_w, net_slope_degree);
-        scale_up_2d(n, self.degree);
-        convolve(slope_n, slope_degree, w, net_degree, 1.0, product);
-        convolve(n, self.degree, slope_w, net_slope_degree, -2.0, product);
-        scale_down_2d(product, total);
-        (extent_off_side(product, total, k), greatest)
+        found
     }
 
     /// Rebuilds the coefficients of slot `at` from the poles; true when a plane already separates the query.
@@ -696,41 +661,4 @@ fn cut_area(component: &mut [f64], degree: Bidegree, area: &Area) {
             cut(row, degree.t, 1, 1, area.t[0], area.t[1]);
         }
     }
-}
-
-fn lowered(degree: Bidegree, direction: usize) -> Bidegree {
-    if direction == 0 {
-        Bidegree { s: degree.s - 1, ..degree }
-    } else {
-        Bidegree { t: degree.t - 1, ..degree }
-    }
-}
-
-/// Appends the Bernstein coefficients of a partial derivative to `out`.
-fn derivative(f: &[f64], degree: Bidegree, direction: usize, out: &mut Vec<f64>) {
-    let count = lowered(degree, direction).count();
-    out.extend((0..count).map(|x| derivative_at(f, degree, direction, x)));
-}
-
-/// Coefficient `x` of a partial derivative.
-fn derivative_at(f: &[f64], degree: Bidegree, direction: usize, x: usize) -> f64 {
-    let width = degree.t + 1;
-    if direction == 0 {
-        return degree.s as f64 * (f[x + width] - f[x]);
-    }
-    let from = (x / degree.t) * width + x % degree.t;
-    degree.t as f64 * (f[from + 1] - f[from])
-}
-
-/// Extent of the coefficients that do not belong to side `k`.
-fn extent_off_side(f: &[f64], degree: Bidegree, k: usize) -> (f64, f64) {
-    let width = degree.t + 1;
-    let on_side = |i: usize, j: usize| [i == 0, i == degree.s, j == 0, j == degree.t][k];
-    let mut found = NOTHING;
-    for (index, &x) in f.iter().enumerate() {
-        if !on_side(index / width, index % width) {
-            found = merged(found, (x, x));
-        }
-    }
-    found
 }

@@ -143,10 +143,3 @@ impl<'t> Proof<'t> {
         (self.target.min(self.lower) - self.spread).max(0.0)
     }
 }
-
-/// Rounding of the coefficients of `N = |r|^2` relative to those of `C = W^2`, as a squared length.
-///
-/// `position` is how far `r / W` may be off, `radius` bounds its length, `steps` counts half ulps of the products.
-pub fn squared_error(position: f64, radius: f64, steps: f64) -> f64 {
-    (2.0 * radius + position) * position + steps * radius * radius
-}
