@@ -254,7 +254,8 @@ fn at_most_one_answer_in_a_thousand_of_each_class_is_not_proven_and_none_of_the_
     let shares = unproven(false, |_, row| row.class.as_str());
     print("by class, accuracy 1e-9 of the diagonal", &shares);
     for (class, (open, all)) in shares {
-        let most = if ["on", "near", "edge", "far"].contains(&class) { 0 } else { all / 1000 };
+        let most =
+            if ["on", "near", "edge", "far"].contains(&class) { 0 } else { all.div_ceil(1000) };
         assert!(open <= most, "{class}: {open} of {all} not proven");
     }
 }
