@@ -2,9 +2,11 @@
 //!
 //! Queries never seed each other and every thread has its own workspace, so the order of work cannot show in the
 //! answers. Tiles go round the threads like cards; the calling thread works too and looks at `poll` between
-//! its tiles. No locks, no allocation per query.
+//! its tiles. No locks and no allocation on the way of a query.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 
 use crate::closest::{FootPoint, Workspace};
 use crate::error::Error;
@@ -13,11 +15,17 @@ use crate::error::Error;
 /// enough that the threads end together.
 const TILE: usize = 128;
 
+/// How often the calling thread polls while it waits for the others.
+const PAUSE: Duration = Duration::from_millis(1);
+
 /// The work of a batch: query number and workspace to record.
 pub type Work<'a> = &'a (dyn Fn(usize, &mut Workspace) -> FootPoint + Sync);
 
 /// Asked on the calling thread with the number of queries done; true stops the batch.
 pub type Poll<'a> = &'a mut dyn FnMut(usize) -> bool;
+
+/// The tiles of one thread: number of the first query and where its records go.
+type Hand<'a> = Vec<(usize, &'a mut [FootPoint])>;
 
 #[derive(Default)]
 struct Progress {
@@ -28,38 +36,72 @@ struct Progress {
 /// Runs `work` for every index of `out` on `threads` threads (0: all cores; 1: the calling thread only).
 ///
 /// # Errors
-/// [`Error::Cancelled`] when `poll` said so: records not reached are [`FootPoint::unreached`].
-/// [`Error::OutOfMemory`] when a thread could not be started; likewise.
+/// [`Error::OutOfMemory`] before anything is written. [`Error::Cancelled`] when `poll` said so: records not
+/// reached are [`FootPoint::unreached`].
 pub fn run(out: &mut [FootPoint], threads: usize, work: Work, poll: Poll) -> Result<(), Error> {
     let total = out.len();
     let wanted = if threads == 0 { cores() } else { threads };
     let threads = wanted.min(total.div_ceil(TILE)).max(1);
-    out.fill(FootPoint::unreached());
-    let mut hands: Vec<Vec<(usize, &mut [FootPoint])>> = (0..threads).map(|_| Vec::new()).collect();
-    for (k, tile) in out.chunks_mut(TILE).enumerate() {
-        hands[k % threads].push((k * TILE, tile));
+    let mut hands = deal(out, threads)?;
+    for (_, tile) in hands.iter_mut().flatten() {
+        tile.fill(FootPoint::unreached());
     }
     let progress = Progress::default();
-    let mut hands = hands.into_iter();
-    let own = hands.next().unwrap_or_default();
-    let started = std::thread::scope(|scope| {
-        let mut started = true;
-        for hand in hands {
-            let progress = &progress;
-            let task = move || work_off(hand, work, progress, &mut |_| false);
-            started &= std::thread::Builder::new().spawn_scoped(scope, task).is_ok();
-        }
-        work_off(own, work, &progress, poll);
-        started
-    });
-    if !started {
-        return Err(Error::OutOfMemory);
+    if threads == 1 {
+        hands.into_iter().for_each(|hand| work_off(hand, work, &progress, poll));
+    } else {
+        work_together(hands, work, &progress, poll);
     }
     let complete = progress.done.load(Ordering::Relaxed) == total;
     if complete { Ok(()) } else { Err(Error::Cancelled) }
 }
 
-fn work_off(hand: Vec<(usize, &mut [FootPoint])>, work: Work, progress: &Progress, poll: Poll) {
+fn deal(out: &mut [FootPoint], threads: usize) -> Result<Vec<Hand<'_>>, Error> {
+    let tiles = out.len().div_ceil(TILE);
+    let mut hands = Vec::new();
+    hands.try_reserve_exact(threads).map_err(|_| Error::OutOfMemory)?;
+    for _ in 0..threads {
+        let mut hand = Hand::new();
+        hand.try_reserve_exact(tiles.div_ceil(threads)).map_err(|_| Error::OutOfMemory)?;
+        hands.push(hand);
+    }
+    for (k, tile) in out.chunks_mut(TILE).enumerate() {
+        hands[k % threads].push((k * TILE, tile));
+    }
+    Ok(hands)
+}
+
+/// One thread a hand, the calling one included. Hands that no thread has taken, because it could not be started or
+/// has not got so far, are left to the caller, which then polls until the last thread has ended.
+fn work_together(hands: Vec<Hand>, work: Work, progress: &Progress, poll: Poll) {
+    let hands: Vec<Mutex<Option<Hand>>> =
+        hands.into_iter().map(|hand| Mutex::new(Some(hand))).collect();
+    let take = |k: usize| hands[k].lock().unwrap_or_else(PoisonError::into_inner).take();
+    std::thread::scope(|scope| {
+        let caller = std::thread::current();
+        let mut started = Vec::with_capacity(hands.len());
+        for k in 1..hands.len() {
+            let (take, caller) = (&take, caller.clone());
+            let task = move || {
+                take(k).into_iter().for_each(|hand| work_off(hand, work, progress, &mut |_| false));
+                caller.unpark();
+            };
+            started.extend(std::thread::Builder::new().spawn_scoped(scope, task));
+        }
+        take(0).into_iter().for_each(|hand| work_off(hand, work, progress, poll));
+        for k in 1..hands.len() {
+            take(k).into_iter().for_each(|hand| work_off(hand, work, progress, poll));
+        }
+        while !started.iter().all(|thread| thread.is_finished()) {
+            if poll(progress.done.load(Ordering::Relaxed)) {
+                progress.stop.store(true, Ordering::Relaxed);
+            }
+            std::thread::park_timeout(PAUSE);
+        }
+    });
+}
+
+fn work_off(hand: Hand, work: Work, progress: &Progress, poll: Poll) {
     let mut workspace = Workspace::default();
     for (first, tile) in hand {
         if poll(progress.done.load(Ordering::Relaxed)) {

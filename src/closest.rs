@@ -14,11 +14,20 @@
 //! Limits: a query whose foot is degenerate along a whole curve without being exactly constant may exhaust the
 //! budget; it is then marked, never guessed.
 
-mod curve;
-mod line;
-mod local;
-mod patch;
 mod proof;
+
+mod certificate;
+
+mod line;
+
+mod collapsed;
+
+mod patch;
+
+mod local;
+
+mod curve;
+
 mod surface;
 
 use crate::bounds::{HALF_ULP, Vector, norm, sub};
@@ -140,7 +149,7 @@ pub struct Workspace {
 /// Boxes a query may look at by default: 4,000 for small pieces, fewer where a box costs more.
 /// `coefficients` is the number of product coefficients of a piece: (2p+1) for curves, (2p+1)(2q+1) for surfaces.
 pub fn default_budget(coefficients: usize) -> u64 {
-    (300_000 / coefficients as u64).clamp(150, 4_000)
+    (600_000 / coefficients as u64).clamp(150, 4_000)
 }
 
 /// The gap that rounding leaves at least, in the caller's lengths: 64 half ulps of the coordinates that meet
@@ -148,6 +157,18 @@ pub fn default_budget(coefficients: usize) -> u64 {
 pub fn rounding_floor(frame: &Frame, query: Vector, position: f64) -> f64 {
     let largest = query.iter().fold(frame.magnitude, |m, x| m.max(x.abs()));
     16.0 * HALF_ULP * largest + 4.0 * position / frame.scale
+}
+
+/// Steps in the local parameters at which a continuum of feet must still be one.
+const CONTINUUM_STEPS: [f64; 2] = [1.0 / 32.0, 1.0 / 16.0];
+
+/// Most of the box diagonal that the grain of the parameters (speed times the gap between doubles) may add to the
+/// rounding floor; where it is coarser, the parameters cannot say where the foot is and the answer is not proven.
+pub const MOST_GRAIN: f64 = 1e-9;
+
+/// Distance from `x` to the next double away from zero.
+fn ulp(x: f64) -> f64 {
+    x.abs().next_up() - x.abs()
 }
 
 fn is_bad(query: Vector) -> bool {
@@ -173,8 +194,12 @@ fn certify(foot: &mut FootPoint, proof: &Proof, frame: &Frame, allowed: f64) {
         foot.flags |= flag::BUDGET;
     }
     let gap = foot.distance - foot.lower_bound;
+    foot.flags &= !(flag::NOT_PROVEN | flag::TIE);
     if gap.is_nan() || gap > allowed {
         foot.flags |= flag::NOT_PROVEN;
+    }
+    if proof.is_tied() {
+        foot.flags |= flag::TIE;
     }
 }
 

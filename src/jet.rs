@@ -8,6 +8,9 @@ use crate::bezier::{Bidegree, basis};
 use crate::bounds::{Vector, dot, sub};
 use crate::knots::MAX_DEGREE;
 
+/// Second derivatives of the squared distance below this share of the metric count as zero.
+const FLAT: f64 = 1e-6;
+
 /// Vector to a curve point and its derivatives in the local parameter.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Jet1 {
@@ -55,6 +58,11 @@ impl Jet1 {
     pub fn hessian(&self) -> f64 {
         dot(self.s, self.s) + dot(self.d, self.ss)
     }
+
+    /// Whether the distance is stationary to second order: the query is near the centre of curvature.
+    pub fn is_flat(&self) -> bool {
+        self.hessian().abs() <= FLAT * dot(self.s, self.s)
+    }
 }
 
 impl Jet2 {
@@ -72,6 +80,21 @@ impl Jet2 {
     pub fn hessian(&self) -> [f64; 3] {
         let [e, f, g] = self.metric();
         [e + dot(self.d, self.ss), f + dot(self.d, self.st), g + dot(self.d, self.tt)]
+    }
+
+    /// A parameter direction in which the distance is stationary to second order, if there is one; scaled to 1 in
+    /// its greater component.
+    pub fn flat_direction(&self) -> Option<[f64; 2]> {
+        let ([e, f, g], [a, b, c]) = (self.metric(), self.hessian());
+        let area = e * g - f * f;
+        if area <= 1e-12 * e * g || (a * c - b * b).abs() > FLAT * area {
+            return None;
+        }
+        let v = if a * g > c * e { [-b, a] } else { [c, -b] };
+        let size = v[0].abs().max(v[1].abs());
+        let scale = a.abs().max(b.abs()).max(c.abs());
+        // All zero but for rounding: every direction is flat.
+        Some(if scale <= FLAT * (e + g) { [1.0, 0.0] } else { v.map(|x| x / size) })
     }
 
     /// First fundamental form: E, F, G.

@@ -1,11 +1,12 @@
 //! Nearest point of a curve.
 
+use super::certificate::squared_error;
 use super::line::{Given, Line, LineMemory, search_line};
 use super::local::{LOCAL_FLAGS, WholeCurve, curve_start};
-use super::proof::{Proof, Site, Watch, squared_error};
+use super::proof::{Proof, Site, Watch};
 use super::{
-    FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, distance, flag, is_bad,
-    mark_inversion, rounding_floor,
+    CONTINUUM_STEPS, FootPoint, MOST_GRAIN, QueryOptions, Scope, Workspace, certify,
+    default_budget, distance, flag, is_bad, mark_inversion, rounding_floor, ulp,
 };
 use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, sub};
 use crate::error::Error;
@@ -83,7 +84,7 @@ impl IndexedCurve {
         let curve = WholeCurve { curve: self.curve(), query };
         let (u, _, taken) =
             foot_on_curve(&curve, start, self.range(options), options.method, trace);
-        let mut foot = self.foot_at(index, query, u);
+        let mut foot = self.foot_at(index, query, u, self.range(options));
         foot.flags |= LOCAL_FLAGS | if hint.is_some() { flag::HINT_USED } else { 0 };
         foot.iterations = taken;
         foot
@@ -122,22 +123,57 @@ impl IndexedCurve {
         }
         search.walk(workspace, &mut proof);
         let Some(site) = proof.site else { return FootPoint::unreached() };
-        let mut foot = self.foot_at(index, query, search.parameter(site));
+        let mut foot = self.foot_at(index, query, search.parameter(site), search.range);
         certify(&mut foot, &proof, &index.frame, allowed);
+        if foot.flags & flag::NOT_PROVEN != 0 {
+            self.settle_grain(index, query, &search, &mut foot, &proof, allowed);
+        }
+        if proof.flat.is_some() && search.is_continuum(site, &proof) {
+            foot.flags |= flag::CONTINUUM | flag::TIE;
+        }
         if hint.is_some() {
             foot.flags |= flag::HINT_USED;
         }
         foot
     }
 
+    /// A foot that is not proven because no double is nearer to its parameter: takes the best of the neighbours, and
+    /// lets the grain of the parameter count as rounding.
+    fn settle_grain(
+        &self,
+        index: &CurveIndex,
+        query: Vector,
+        search: &CurveSearch,
+        foot: &mut FootPoint,
+        proof: &Proof,
+        allowed: f64,
+    ) {
+        let mut jet = [[0.0; 3]; 2];
+        self.curve().derivatives(foot.u, 1, &mut jet);
+        let grain = norm(jet[1]) * ulp(foot.u);
+        if grain.is_nan() || grain < 0.01 * allowed {
+            return;
+        }
+        let mut best = *foot;
+        for u in [foot.u.next_down(), foot.u.next_up()] {
+            let near =
+                self.foot_at(index, query, u.clamp(search.range[0], search.range[1]), search.range);
+            if near.distance < best.distance {
+                best = near;
+            }
+        }
+        *foot = best;
+        certify(foot, proof, &index.frame, allowed + grain.min(MOST_GRAIN * index.frame.diagonal));
+    }
+
     /// The record at a parameter, with the flags of the place.
-    fn foot_at(&self, index: &CurveIndex, query: Vector, u: f64) -> FootPoint {
+    fn foot_at(&self, index: &CurveIndex, query: Vector, u: f64, range: [f64; 2]) -> FootPoint {
         let (first, last) = self.curve().domain();
         let mut u = u;
         let mut point = self.curve().evaluate(u);
         let mut flags = 0;
         let closed = index.closed;
-        if closed && u == last {
+        if closed && u == last && range[0] == first {
             // The canonical parameter of a seam is the start, when it is as near.
             let start = self.curve().evaluate(first);
             let floor = rounding_floor(&index.frame, query, 0.0);
@@ -195,19 +231,29 @@ struct CurveSearch<'a> {
 impl CurveSearch<'_> {
     /// The part of segment `k` inside the restriction, in local parameters.
     fn local_range(&self, k: usize) -> Option<[f64; 2]> {
-        let span = self.index.segments[k].u;
-        let [u0, u1] = span.ends;
-        if self.range[0] >= u1 && self.range[0] > u0 && k + 1 < self.index.segments.len()
-            || self.range[1] <= u0 && k > 0
-        {
-            return None;
-        }
-        Some(self.range.map(|u| span.local(u)))
+        let range = self.index.segments[k].u.cover(self.range);
+        (range[0] < range[1]).then_some(range)
     }
 
     /// The caller's parameter of a place; ends of segments and of the restriction come out exactly.
     fn parameter(&self, site: Site) -> f64 {
         self.index.segments[site.piece].u.global(site.at[0]).clamp(self.range[0], self.range[1])
+    }
+
+    /// Whether the distance stays within the window along the flat direction of the best foot.
+    fn is_continuum(&self, site: Site, proof: &Proof) -> bool {
+        let Some(range) = self.local_range(site.piece) else { return false };
+        let view =
+            (self.index.net(site.piece), sub(self.query, self.index.segments[site.piece].center));
+        proof.best > proof.window()
+            && [-1.0, 1.0].into_iter().any(|side| {
+                CONTINUUM_STEPS.into_iter().all(|step| {
+                    let s = site.at[0] + side * step;
+                    let near = norm(view.0.jet(s.clamp(0.0, 1.0), view.1).d)
+                        <= proof.best + proof.window();
+                    (range[0]..=range[1]).contains(&s) && near
+                })
+            })
     }
 
     fn start_at(&self, u: f64, proof: &mut Proof) {
@@ -223,7 +269,7 @@ impl CurveSearch<'_> {
         let start = segment.u.local(u);
         let (s, jet, taken) = foot_on_curve(&view, start, range, self.options.method, None);
         proof.evaluations += taken;
-        proof.offer(Site { piece: k, at: [s, 0.0] }, jet.d);
+        proof.offer(Site { piece: k, at: [s, 0.0] }, jet.d, || jet.is_flat().then_some([1.0, 0.0]));
     }
 
     fn walk(&self, workspace: &mut Workspace, proof: &mut Proof) {

@@ -7,8 +7,11 @@
 //!       -> otherwise halve; every few halvings the coefficients are rebuilt from the poles
 //! ```
 
-use super::proof::{Proof, Site, squared_error};
-use crate::bezier::{Bidegree, convolve_square, cut, halve_t, scale_down_2d, scale_up_2d};
+use super::certificate::{
+    free_slope, plane_separates, slope_error, square, squared_error, subtract_query, value_at,
+};
+use super::proof::{Proof, Site};
+use crate::bezier::{Bidegree, cut, halve_t};
 use crate::bounds::{HALF_ULP, Vector, dot, extent, norm};
 use crate::index::product_steps;
 use crate::jet::{BezierSegment, Jet1};
@@ -218,7 +221,8 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         let s = if end == 0 { interval.low } else { interval.high };
         let jet = self.line.segment.jet(s, self.line.query);
         self.proof.evaluations += 1;
-        self.proof.offer((self.line.site)(s), jet.d);
+        self.proof.rival(jet.d);
+        self.proof.offer((self.line.site)(s), jet.d, || None);
     }
 
     /// Coefficients of `N - mu C` into half `part` of the scratch memory.
@@ -237,7 +241,7 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
     /// The end at which `h` is least, when it is strictly monotone for every squared distance that a nearest
     /// point in this interval can have.
     fn monotone(&mut self, interval: &Interval, at: usize, least: f64) -> Option<usize> {
-        let reach = self.proof.best + self.line.position;
+        let reach = self.proof.best + self.proof.gap;
         self.form(at, 0, (least - interval.error).max(0.0));
         self.form(at, 1, reach * reach);
         let allowance = 2.0 * interval.error * self.greatest_weight(at);
@@ -267,7 +271,14 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
             }
         };
         self.proof.evaluations += taken;
-        self.proof.offer((self.line.site)(s), jet.d);
+        if (s > low || low == self.line.range[0]) && (s < high || high == self.line.range[1]) {
+            self.proof.rival(jet.d);
+        }
+        let along = || {
+            let (a, b) = ((self.line.site)(0.0).at, (self.line.site)(1.0).at);
+            jet.is_flat().then_some([b[0] - a[0], b[1] - a[1]])
+        };
+        self.proof.offer((self.line.site)(s), jet.d, along);
         (s, jet)
     }
 
@@ -374,112 +385,5 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
             pair.swap(0, 1);
         }
         self.memory.waiting.extend(pair);
-    }
-}
-
-/// `X - W p` in place of `X`; returns the greatest `|r| / W`.
-pub fn subtract_query(net: &mut [f64], count: usize, query: Vector) -> f64 {
-    let (xyz, w) = net.split_at_mut(3 * count);
-    let mut greatest: f64 = 0.0;
-    for k in 0..count {
-        let mut sum = 0.0;
-        for c in 0..3 {
-            let r = xyz[c * count + k] - w[k] * query[c];
-            xyz[c * count + k] = r;
-            sum += r * r;
-        }
-        greatest = greatest.max(sum / (w[k] * w[k]));
-    }
-    greatest.sqrt() * (1.0 + 8.0 * HALF_ULP)
-}
-
-/// Whether a plane at the proof's target from the query has all of a net on its other side. `net` holds `r` and `W`.
-///
-/// Two normals are tried: that to the best foot, and that of the summed net. The linear form has no squares, so it
-/// works down to rounding; on the convex side of a shape it closes whole pieces at once.
-pub fn plane_separates(net: &[f64], count: usize, proof: &Proof, position: f64) -> bool {
-    let least = (proof.target + 2.0 * position) * (1.0 + 32.0 * HALF_ULP);
-    let (xyz, w) = net.split_at(3 * count);
-    let beyond = |n: Vector| {
-        (0..count).all(|k| {
-            n[0] * xyz[k] + n[1] * xyz[count + k] + n[2] * xyz[2 * count + k] > least * w[k]
-        })
-    };
-    if beyond(proof.direction) {
-        return true;
-    }
-    let n = [0, 1, 2].map(|c| xyz[c * count..(c + 1) * count].iter().sum::<f64>());
-    let size = norm(n);
-    size > 0.0 && size.is_finite() && beyond(n.map(|x| x / size))
-}
-
-/// As [`plane_separates`] with the normal to the best foot, for poles `X` (and `W` when rational).
-pub fn foot_plane_separates(
-    poles: &[f64],
-    count: usize,
-    rational: bool,
-    query: Vector,
-    proof: &Proof,
-    position: f64,
-) -> bool {
-    let n = proof.direction;
-    let least = (proof.target + 2.0 * position) * (1.0 + 32.0 * HALF_ULP) + dot(n, query);
-    let height = |k: usize| n[0] * poles[k] + n[1] * poles[count + k] + n[2] * poles[2 * count + k];
-    if rational {
-        (0..count).all(|k| height(k) > least * poles[3 * count + k])
-    } else {
-        (0..count).all(|k| height(k) > least)
-    }
-}
-
-/// Coefficients of `|r|^2` and, when the slot has room for it, of `W^2`.
-pub fn square(net: &mut [f64], degree: Bidegree, slot: &mut [f64]) {
-    let (count, twice) = (degree.count(), degree.times(degree));
-    slot.fill(0.0);
-    for component in net.chunks_exact_mut(count) {
-        scale_up_2d(component, degree);
-    }
-    let (n, c) = slot.split_at_mut(twice.count());
-    for component in net[..3 * count].chunks_exact(count) {
-        convolve_square(component, degree, 1.0, n);
-    }
-    scale_down_2d(n, twice);
-    if !c.is_empty() {
-        convolve_square(&net[3 * count..], degree, 1.0, c);
-        scale_down_2d(c, twice);
-    }
-}
-
-/// A lower bound of `h = W^2 (d^2 - target^2)` where the distance is `d` and the weight `w`, both rounded.
-pub fn value_at(d: f64, w: f64, position: f64, proof: &Proof) -> f64 {
-    let d = d - position;
-    if d <= proof.target {
-        0.0
-    } else {
-        w * w * ((d - proof.target) * (d + proof.target)) * (1.0 - 1e-12)
-    }
-}
-
-/// How far the computed slope `2 w (w' (d^2 - target^2) + w d.d')` of `h` may be off.
-///
-/// With `position` the error of the point, that of the derivative is at most `12 degree position / w` (weights are
-/// at most 2 after normalisation, and the quotient rule has three terms); `w'` is at most `4 degree`.
-pub fn slope_error(d: f64, speed: f64, w: f64, position: f64, degree: usize) -> f64 {
-    let p = degree as f64;
-    let derivative = 12.0 * p * position / w.min(1.0);
-    let product = position * (speed + derivative) + d * derivative + 16.0 * HALF_ULP * d * speed;
-    4.0 * w * w * product + 16.0 * w * p * d * (position + 1e-14 * d)
-}
-
-/// The part of a slope that can lower `h`: at the low end only a negative one, at the high end only a positive one.
-pub fn free_slope(g: f64, slack: f64, at_low: bool, at_high: bool) -> f64 {
-    if at_low && at_high {
-        0.0
-    } else if at_low {
-        (slack - g).max(0.0)
-    } else if at_high {
-        (slack + g).max(0.0)
-    } else {
-        g.abs() + slack
     }
 }

@@ -4,12 +4,14 @@
 //! At a collapsed side the derivative along it vanishes for every shape: the collapsed point is looked at once,
 //! and off that side the sign of the derivative of the distance itself is used (see [`Walk::turning`]).
 
-use super::line::{
-    Given, Line, LineMemory, foot_plane_separates, free_slope, plane_separates, search_line,
-    slope_error, square, subtract_query, value_at,
+use super::certificate::{
+    foot_plane_separates, free_slope, plane_separates, slope_error, square, squared_error,
+    subtract_query, value_at,
 };
-use super::proof::{Proof, Site, squared_error};
-use crate::bezier::{Bidegree, convolve, cut, halve_s, halve_t, scale_down_2d, scale_up_2d};
+use super::collapsed::{along, rational_slope_extent, slope_extent};
+use super::line::{Given, Line, LineMemory, search_line};
+use super::proof::{Proof, Site};
+use crate::bezier::{Bidegree, cut, halve_s, halve_t};
 use crate::bounds::{HALF_ULP, Vector, dot, extent, norm};
 use crate::index::{Patch, product_steps, side};
 use crate::jet::{BezierPatch, BezierSegment, Jet2};
@@ -63,6 +65,7 @@ pub struct PatchMemory {
     h: Vec<f64>,
     edge: Vec<f64>,
     turning: Vec<f64>,
+    weights: Vec<f64>,
     line: LineMemory,
 }
 
@@ -184,7 +187,7 @@ impl Walk<'_, '_, '_> {
     fn look_at(&mut self, at: [f64; 2]) -> Jet2 {
         let jet = self.sheet.net.jet(at[0], at[1], self.sheet.query);
         self.proof.evaluations += 1;
-        self.proof.offer(Site { piece: self.sheet.piece, at }, jet.d);
+        self.proof.offer(Site { piece: self.sheet.piece, at }, jet.d, || None);
         jet
     }
 
@@ -313,7 +316,7 @@ impl Walk<'_, '_, '_> {
 
     /// First differences of `h` over every squared distance that a nearest point in this area can have.
     fn slopes(&mut self, area: &Area, at: usize, least: f64) -> Slopes {
-        let reach = self.proof.best + self.sheet.position;
+        let reach = self.proof.best + self.proof.gap;
         self.form(at, 0, (least - area.error).max(0.0));
         let parts = if self.sheet.net.rational { 2 } else { 1 };
         if parts == 2 {
@@ -455,7 +458,15 @@ impl Walk<'_, '_, '_> {
             }
         };
         self.proof.evaluations += taken;
-        self.proof.offer(Site { piece: self.sheet.piece, at }, jet.d);
+        let inner = |k: usize| {
+            let [low, high] = [range[2 * k], range[2 * k + 1]];
+            (at[k] > low || low == self.sheet.range[2 * k])
+                && (at[k] < high || high == self.sheet.range[2 * k + 1])
+        };
+        if inner(0) && inner(1) {
+            self.proof.rival(jet.d);
+        }
+        self.proof.offer(Site { piece, at }, jet.d, || jet.flat_direction());
         (at, jet)
     }
 
@@ -533,82 +544,46 @@ impl Walk<'_, '_, '_> {
         value > 0.0 && loss <= 2.0 * value * (1.0 - 1e-10)
     }
 
-    /// At a collapsed side: whether the distance changes strictly along the side everywhere off it.
-    ///
-    /// With `f = N / C` the sign of `f_s` is that of `W N_s - 2 N W_s`, whose first row of coefficients vanishes
-    /// on the side; all the others must keep one sign. Then only the collapsed point or a border can be nearest.
+    /// At a collapsed side: whether the distance changes strictly along the side everywhere off it (see
+    /// `collapsed`). Then only the collapsed point or a border can be nearest.
     fn turning(&mut self, area: &Area, at: usize, weight: f64) -> bool {
         let ends = [area.s[0], area.s[1], area.t[0], area.t[1]];
         let touched =
             (0..4).find(|&k| self.sheet.patch.collapsed[k] && ends[k] == [0.0, 1.0, 0.0, 1.0][k]);
         let Some(k) = touched else { return false };
-        let direction = if k >= side::T0 { 0 } else { 1 };
-        let Some(sign) = self.turning_sign(area, at, k, direction, weight) else { return false };
-        self.follow_side(area, at, 2 * direction + usize::from(sign < 0.0));
-        true
+        let ((low, high), allowance) = self.turning_extent(area, at, k, weight);
+        if low > allowance || high < -allowance {
+            self.follow_side(area, at, 2 * along(k) + usize::from(high < 0.0));
+            return true;
+        }
+        false
     }
 
-    /// The sign of `f` along `direction` off the collapsed side `k`, when it is strict.
-    fn turning_sign(
-        &mut self,
-        area: &Area,
-        at: usize,
-        k: usize,
-        direction: usize,
-        weight: f64,
-    ) -> Option<f64> {
-        let mut memory = std::mem::take(&mut self.memory.turning);
-        let (low, high, allowance) =
-            self.turning_extent(area, at, k, direction, weight, &mut memory);
-        self.memory.turning = memory;
-        if low > allowance { Some(1.0) } else { (high < -allowance).then_some(-1.0) }
-    }
-
+    /// Extent of the slope along side `k` off that side, and its rounding.
     fn turning_extent(
         &mut self,
         area: &Area,
         at: usize,
         k: usize,
-        direction: usize,
         weight: f64,
-        memory: &mut Vec<f64>,
-    ) -> (f64, f64, f64) {
-        let slope_degree = lowered(self.degree, direction);
-        let slope_n = derivative(self.n(at), self.degree, direction);
-        let n_degree = if direction == 0 { self.degree.s } else { self.degree.t } as f64;
-        if !self.sheet.net.rational {
-            let (low, high) = extent_off_side(&slope_n, slope_degree, k);
-            return (low, high, 2.0 * n_degree * area.error);
-        }
-        let net_degree = self.sheet.net.degree;
-        let w = self.weights_on(area);
-        let slope_w = derivative(&w, net_degree, direction);
-        let total = slope_degree.times(net_degree);
-        memory.clear();
-        memory.resize(total.count(), 0.0);
-        let mut up = |f: &[f64], df: Bidegree, g: &[f64], dg: Bidegree, sign: f64| {
-            let (mut f, mut g) = (f.to_vec(), g.to_vec());
-            scale_up_2d(&mut f, df);
-            scale_up_2d(&mut g, dg);
-            convolve(&f, df, &g, dg, sign, memory);
+    ) -> ((f64, f64), f64) {
+        let mut memory = std::mem::take(&mut self.memory.turning);
+        let n_degree = [self.degree.s, self.degree.t][along(k)] as f64;
+        let found = if self.sheet.net.rational {
+            let net = self.sheet.net.degree;
+            let w = &mut self.memory.weights;
+            w.clear();
+            w.extend_from_slice(&self.sheet.net.poles[3 * net.count()..]);
+            cut_area(w, net, area);
+            let n = &self.memory.coefficients[at * self.slot..at * self.slot + self.count];
+            let found = rational_slope_extent(n, w, net, k, &mut memory);
+            let size = product_steps(2 * net.count()) * area.radius * area.radius;
+            (found, 8.0 * n_degree * extent(w).1 * weight * (area.error + size))
+        } else {
+            (slope_extent(self.n(at), self.degree, k, &mut memory), 2.0 * n_degree * area.error)
         };
-        up(&slope_n, slope_degree, &w, net_degree, 1.0);
-        up(self.n(at), self.degree, &slope_w, lowered(net_degree, direction), -2.0);
-        scale_down_2d(memory, total);
-        let (low, high) = extent_off_side(memory, total, k);
-        let greatest = extent(&w).1;
-        let steps = product_steps(2 * net_degree.count());
-        let size = area.radius * area.radius * weight;
-        let allowance = 8.0 * n_degree * greatest * (area.error * weight + steps * size);
-        (low, high, allowance)
-    }
-
-    /// Coefficients of W on the area.
-    fn weights_on(&self, area: &Area) -> Vec<f64> {
-        let degree = self.sheet.net.degree;
-        let mut w = self.sheet.net.poles[3 * degree.count()..].to_vec();
-        cut_area(&mut w, degree, area);
-        w
+        self.memory.turning = memory;
+        found
     }
 
     /// Rebuilds the coefficients of slot `at` from the poles; true when a plane already separates the query.
@@ -686,36 +661,4 @@ fn cut_area(component: &mut [f64], degree: Bidegree, area: &Area) {
             cut(row, degree.t, 1, 1, area.t[0], area.t[1]);
         }
     }
-}
-
-fn lowered(degree: Bidegree, direction: usize) -> Bidegree {
-    if direction == 0 {
-        Bidegree { s: degree.s - 1, ..degree }
-    } else {
-        Bidegree { t: degree.t - 1, ..degree }
-    }
-}
-
-/// Bernstein coefficients of a partial derivative.
-fn derivative(f: &[f64], degree: Bidegree, direction: usize) -> Vec<f64> {
-    let width = degree.t + 1;
-    if direction == 0 {
-        let n = degree.s as f64;
-        return f.iter().zip(&f[width..]).map(|(a, b)| n * (b - a)).collect();
-    }
-    let n = degree.t as f64;
-    f.chunks_exact(width).flat_map(|row| row.windows(2).map(move |w| n * (w[1] - w[0]))).collect()
-}
-
-/// Extent of the coefficients that do not belong to side `k`.
-fn extent_off_side(f: &[f64], degree: Bidegree, k: usize) -> (f64, f64) {
-    let width = degree.t + 1;
-    let on_side = |i: usize, j: usize| [i == 0, i == degree.s, j == 0, j == degree.t][k];
-    let mut found = NOTHING;
-    for (index, &x) in f.iter().enumerate() {
-        if !on_side(index / width, index % width) {
-            found = merged(found, (x, x));
-        }
-    }
-    found
 }

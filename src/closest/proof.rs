@@ -1,6 +1,9 @@
 //! The state of one query: the best foot so far, what is proven, what was given up.
 
-use crate::bounds::{HALF_ULP, Vector, norm, scaled};
+use crate::bounds::{HALF_ULP, Vector, dot, norm, scaled, sub};
+
+/// Feet remembered for ties; more of them say no more.
+const RIVALS: usize = 6;
 
 /// Where the best foot lies: a piece and its local parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,6 +27,10 @@ pub struct Proof<'t> {
     pub site: Option<Site>,
     /// Unit vector from the query to the best foot.
     pub direction: Vector,
+    /// Local parameter direction in which the best foot is stationary to second order, if there is one.
+    pub flat: Option<[f64; 2]>,
+    rivals: [Vector; RIVALS],
+    rival_count: usize,
     /// What must be proven everywhere: `best - gap`, at least zero.
     pub target: f64,
     /// An upper bound of the target's square.
@@ -55,6 +62,9 @@ impl<'t> Proof<'t> {
             best: f64::INFINITY,
             site: None,
             direction: [0.0; 3],
+            flat: None,
+            rivals: [[0.0; 3]; RIVALS],
+            rival_count: 0,
             target: f64::INFINITY,
             target_squared: f64::INFINITY,
             lower: f64::INFINITY,
@@ -67,17 +77,48 @@ impl<'t> Proof<'t> {
         }
     }
 
-    /// Takes the foot at `site`, `d` away from the query, if it is nearer than the best.
-    pub fn offer(&mut self, site: Site, d: Vector) {
+    /// Takes the point at `site`, `d` away from the query, if it is nearer than the best; `flat` tells the direction in
+    /// which the distance is stationary to second order there.
+    pub fn offer(&mut self, site: Site, d: Vector, flat: impl FnOnce() -> Option<[f64; 2]>) {
         let distance = norm(d);
         if distance.is_nan() || distance >= self.best {
             return;
         }
+        if self.best - distance <= self.window() {
+            self.rival(scaled(self.direction, self.best));
+        }
         self.best = distance;
         self.direction = scaled(d, 1.0 / distance);
+        self.flat = flat();
         self.site = Some(site);
         self.target = (distance - self.gap).max(0.0);
         self.target_squared = self.target * self.target * (1.0 + 8.0 * HALF_ULP);
+    }
+
+    /// Remembers a foot that may tie with the best one.
+    pub fn rival(&mut self, d: Vector) {
+        if self.rival_count < RIVALS && norm(d) <= self.best + self.window() {
+            self.rivals[self.rival_count] = d;
+            self.rival_count += 1;
+        }
+    }
+
+    /// How much farther a foot may be and still tie: the accuracy.
+    pub fn window(&self) -> f64 {
+        2.0 * self.gap
+    }
+
+    /// Whether a remembered foot lies elsewhere, and as near as the best.
+    ///
+    /// Points around one foot are within the window up to a distance of `sqrt(2 window best / (1 - best k))` from
+    /// it, so rivals count from several times that on.
+    pub fn is_tied(&self) -> bool {
+        let foot = scaled(self.direction, self.best);
+        let apart = 64.0 * self.window() * (self.best + self.window());
+        self.rivals[..self.rival_count].iter().any(|&d| {
+            let move_ = sub(d, foot);
+            norm(d) <= self.best + self.window() && dot(move_, move_) > apart
+        })
     }
 
     /// Whether nothing is left to prove: every shape is at least zero away.
@@ -101,11 +142,4 @@ impl<'t> Proof<'t> {
     pub fn proven(&self) -> f64 {
         (self.target.min(self.lower) - self.spread).max(0.0)
     }
-}
-
-/// Rounding of the coefficients of `N = |r|^2` relative to those of `C = W^2`, as a squared length.
-///
-/// `position` is how far `r / W` may be off, `radius` bounds its length, `steps` counts half ulps of the products.
-pub fn squared_error(position: f64, radius: f64, steps: f64) -> f64 {
-    (2.0 * radius + position) * position + steps * radius * radius
 }

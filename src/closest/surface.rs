@@ -4,8 +4,8 @@ use super::local::{LOCAL_FLAGS, WholeSurface, surface_start};
 use super::patch::{PatchMemory, Sheet, search_patch};
 use super::proof::{Proof, Site, Watch};
 use super::{
-    FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, distance, flag, is_bad,
-    mark_inversion, rounding_floor,
+    CONTINUUM_STEPS, FootPoint, MOST_GRAIN, QueryOptions, Scope, Workspace, certify,
+    default_budget, distance, flag, is_bad, mark_inversion, rounding_floor, ulp,
 };
 use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, sub};
 use crate::error::Error;
@@ -89,7 +89,7 @@ impl IndexedSurface {
         let surface = WholeSurface { surface: self.surface(), query };
         let (at, _, taken) =
             foot_on_surface(&surface, start, self.range(options), options.method, trace);
-        let mut foot = self.foot_at(index, query, at);
+        let mut foot = self.foot_at(index, query, at, self.range(options));
         foot.flags |= LOCAL_FLAGS | if hint.is_some() { flag::HINT_USED } else { 0 };
         foot.iterations = taken;
         foot
@@ -126,23 +126,67 @@ impl IndexedSurface {
         }
         search.walk(workspace, &mut proof);
         let Some(site) = proof.site else { return FootPoint::unreached() };
-        let mut foot = self.foot_at(index, query, search.parameters(site));
+        let mut foot = self.foot_at(index, query, search.parameters(site), search.range);
         certify(&mut foot, &proof, &index.frame, allowed);
+        if foot.flags & flag::NOT_PROVEN != 0 {
+            self.settle_grain(index, query, &search, &mut foot, &proof, allowed);
+        }
+        if proof.flat.is_some_and(|v| search.is_continuum(site, v, &proof)) {
+            foot.flags |= flag::CONTINUUM | flag::TIE;
+        }
         if hint.is_some() {
             foot.flags |= flag::HINT_USED;
         }
         foot
     }
 
+    /// A foot that is not proven because no doubles are nearer to its parameters: takes the best of the neighbours, and
+    /// lets the grain of the parameters count as rounding.
+    fn settle_grain(
+        &self,
+        index: &SurfaceIndex,
+        query: Vector,
+        search: &SurfaceSearch,
+        foot: &mut FootPoint,
+        proof: &Proof,
+        allowed: f64,
+    ) {
+        let mut jet = [[0.0; 3]; 3];
+        self.surface().partials(foot.u, foot.v, 1, &mut jet);
+        let grain = norm(jet[1]) * ulp(foot.u) + norm(jet[2]) * ulp(foot.v);
+        if grain.is_nan() || grain < 0.01 * allowed {
+            return;
+        }
+        let mut best = *foot;
+        let r = search.range;
+        for u in [foot.u.next_down(), foot.u, foot.u.next_up()] {
+            for v in [foot.v.next_down(), foot.v, foot.v.next_up()] {
+                let at = [u.clamp(r[0], r[1]), v.clamp(r[2], r[3])];
+                let near = self.foot_at(index, query, at, r);
+                if near.distance < best.distance {
+                    best = near;
+                }
+            }
+        }
+        *foot = best;
+        certify(foot, proof, &index.frame, allowed + grain.min(MOST_GRAIN * index.frame.diagonal));
+    }
+
     /// The record at a parameter pair, with the flags of the place.
-    fn foot_at(&self, index: &SurfaceIndex, query: Vector, at: [f64; 2]) -> FootPoint {
+    fn foot_at(
+        &self,
+        index: &SurfaceIndex,
+        query: Vector,
+        at: [f64; 2],
+        range: [f64; 4],
+    ) -> FootPoint {
         let surface = self.surface();
         let ([u0, u1, v0, v1], mut at) = (surface.domain(), at);
         let mut point = surface.evaluate(at[0], at[1]);
         let closed = index.closed;
         let (first, last) = ([u0, v0], [u1, v1]);
         for k in 0..2 {
-            if closed[k] && at[k] == last[k] {
+            if closed[k] && at[k] == last[k] && range[2 * k] == first[k] {
                 // The canonical parameter of a seam is the start, when it is as near.
                 let mut start = at;
                 start[k] = first[k];
@@ -244,7 +288,7 @@ struct SurfaceSearch<'a> {
 
 /// The part of a piece that a restriction leaves, in local parameters; `None` when it leaves nothing.
 fn local_interval(span: Span, range: [f64; 2]) -> Option<[f64; 2]> {
-    let range = range.map(|u| span.local(u));
+    let range = span.cover(range);
     (range[0] < range[1]).then_some(range)
 }
 
@@ -265,6 +309,29 @@ impl SurfaceSearch<'_> {
         ]
     }
 
+    /// Whether there is a foot within the window wherever the iteration starts along the flat direction `v`.
+    fn is_continuum(&self, site: Site, v: [f64; 2], proof: &Proof) -> bool {
+        let Some(range) = self.local_range(site.piece) else { return false };
+        let patch = &self.index.patches[site.piece];
+        let view = (self.index.net(site.piece), sub(self.query, patch.center));
+        let home = view.0.jet(site.at[0], site.at[1], view.1).d;
+        let stays = |step: f64| {
+            let start = [site.at[0] + step * v[0], site.at[1] + step * v[1]];
+            let inside = (range[0]..=range[1]).contains(&start[0])
+                && (range[2]..=range[3]).contains(&start[1]);
+            if !inside {
+                return false;
+            }
+            let apart = norm(sub(view.0.jet(start[0], start[1], view.1).d, home));
+            let (_, jet, _) = foot_on_surface(&view, start, range, self.options.method, None);
+            norm(jet.d) <= proof.best + proof.window() && norm(sub(jet.d, home)) > 0.5 * apart
+        };
+        proof.best > proof.window()
+            && [-1.0, 1.0]
+                .into_iter()
+                .any(|side| CONTINUUM_STEPS.into_iter().all(|step| stays(side * step)))
+    }
+
     fn start_at(&self, at: [f64; 2], proof: &mut Proof) {
         let at =
             [at[0].clamp(self.range[0], self.range[1]), at[1].clamp(self.range[2], self.range[3])];
@@ -281,7 +348,7 @@ impl SurfaceSearch<'_> {
         let start = [patch.u.local(at[0]), patch.v.local(at[1])];
         let (at, jet, taken) = foot_on_surface(&view, start, range, self.options.method, None);
         proof.evaluations += taken;
-        proof.offer(Site { piece: k, at }, jet.d);
+        proof.offer(Site { piece: k, at }, jet.d, || jet.flat_direction());
     }
 
     fn walk(&self, workspace: &mut Workspace, proof: &mut Proof) {

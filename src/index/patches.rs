@@ -244,6 +244,8 @@ impl SurfaceIndex {
                     patch.spread = patch.spread.max(norm(sub(pole, point)));
                 }
             });
+            // The poles themselves are rounded, and so is the point.
+            patch.spread += 2.0 * position_steps(last_i + last_j) * patch.radius;
             for (at, weight) in moves {
                 for c in 0..3 {
                     self.nets[start + c * self.degree.count() + at] = weight * point[c];

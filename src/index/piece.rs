@@ -113,6 +113,18 @@ impl Span {
     }
 }
 
+impl Span {
+    /// The least local interval that holds the part of `[low, high]` inside the piece, rounding included: the map has
+    /// five roundings, so four ulps of one on either side. Empty (`[x, x]`) when nothing is inside.
+    pub fn cover(&self, [low, high]: [f64; 2]) -> [f64; 2] {
+        if high <= self.ends[0] || low >= self.ends[1] {
+            return [self.local(low); 2];
+        }
+        let margin = 8.0 * HALF_ULP;
+        [(self.local(low) - margin).max(0.0), (self.local(high) + margin).min(1.0)]
+    }
+}
+
 /// Weights that differ by less than this factor within a piece are left as they are: halving in the search copes.
 const CALM: f64 = 64.0;
 
