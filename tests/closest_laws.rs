@@ -5,135 +5,13 @@
 
 mod shapes;
 
-use std::sync::Mutex;
-
 use footpoint::batch;
 use footpoint::closest::{FootPoint, QueryOptions, Workspace, flag};
-use footpoint::index::{IndexedCurve, IndexedSurface};
 use footpoint::refine::Method;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use shapes::{EPS, FAMILIES, Random, Vector, norm, sub};
-
-/// The shape under test with what the laws need of it.
-enum Shape {
-    Curve(IndexedCurve),
-    Surface(IndexedSurface),
-}
-
-impl Shape {
-    fn new(family: usize, seed: u64) -> Self {
-        let family = &FAMILIES[family];
-        if seed % 2 == 0 {
-            Self::Curve(IndexedCurve::new(shapes::curve(family, seed)))
-        } else {
-            Self::Surface(IndexedSurface::new(shapes::surface(family, seed)))
-        }
-    }
-
-    fn evaluate(&self, [u, v]: [f64; 2]) -> Vector {
-        match self {
-            Self::Curve(curve) => curve.curve().evaluate(u),
-            Self::Surface(surface) => surface.surface().evaluate(u, v),
-        }
-    }
-
-    /// u0, u1, v0, v1; curves: v is 0.
-    fn domain(&self) -> [f64; 4] {
-        match self {
-            Self::Curve(curve) => {
-                let (u0, u1) = curve.curve().domain();
-                [u0, u1, 0.0, 0.0]
-            }
-            Self::Surface(surface) => surface.surface().domain(),
-        }
-    }
-
-    fn bounding_box(&self) -> (Vector, Vector) {
-        match self {
-            Self::Curve(curve) => curve.curve().bounding_box(),
-            Self::Surface(surface) => surface.surface().bounding_box(),
-        }
-    }
-
-    fn diagonal(&self) -> f64 {
-        shapes::extent(self.bounding_box()).0
-    }
-
-    fn degrees(&self) -> usize {
-        match self {
-            Self::Curve(curve) => curve.curve().degree(),
-            Self::Surface(surface) => {
-                surface.surface().knots_u().degree() + surface.surface().knots_v().degree()
-            }
-        }
-    }
-
-    /// A grid over the spans, all knots in it.
-    fn samples(&self) -> Vec<[f64; 2]> {
-        match self {
-            Self::Curve(curve) => {
-                shapes::samples(curve.curve().knots(), 40).into_iter().map(|u| [u, 0.0]).collect()
-            }
-            Self::Surface(surface) => {
-                let vs = shapes::samples(surface.surface().knots_v(), 12);
-                let us = shapes::samples(surface.surface().knots_u(), 12);
-                us.into_iter().flat_map(|u| vs.iter().map(move |v| [u, *v])).collect()
-            }
-        }
-    }
-
-    fn ask(&self, query: Vector, hint: Option<[f64; 2]>, options: &QueryOptions) -> FootPoint {
-        self.ask_with(query, hint, options, &mut Workspace::default())
-    }
-
-    fn ask_with(
-        &self,
-        query: Vector,
-        hint: Option<[f64; 2]>,
-        options: &QueryOptions,
-        workspace: &mut Workspace,
-    ) -> FootPoint {
-        match self {
-            Self::Curve(curve) => {
-                curve.closest(query, hint.map(|h| h[0]), options, workspace, None)
-            }
-            Self::Surface(surface) => surface.closest(query, hint, options, workspace, None),
-        }
-    }
-
-    /// A parameter pair anywhere; often an end.
-    fn place(&self, r: &mut Random) -> [f64; 2] {
-        let [u0, u1, v0, v1] = self.domain();
-        let mut pick = |a: f64, b: f64| match r.whole(0, 9) {
-            0 => a,
-            1 => b,
-            _ => r.between(a, b).clamp(a, b),
-        };
-        [pick(u0, u1), pick(v0, v1)]
-    }
-
-    fn query(&self, r: &mut Random) -> Vector {
-        let on = self.evaluate(self.place(r));
-        shapes::query(self.bounding_box(), on, r)
-    }
-
-    /// What evaluation and the norm may be off by.
-    fn rounding(&self, query: Vector, distance: f64) -> f64 {
-        let (diagonal, magnitude) = shapes::extent(self.bounding_box());
-        let largest = query.iter().fold(magnitude, |m, x| m.max(x.abs()));
-        EPS * ((self.degrees() + 4) as f64 * diagonal + 4.0 * (largest + distance))
-    }
-
-    /// What two certified answers may differ by.
-    fn gap(&self, query: Vector, distance: f64) -> f64 {
-        1e-10 * self.diagonal() + 100.0 * self.rounding(query, distance)
-    }
-}
-
-fn apart(query: Vector, point: Vector) -> f64 {
-    norm(sub(query, point))
-}
+use shapes::asked::{Shape, apart, bits};
+use shapes::{FAMILIES, Random, Vector};
 
 fn config(cases: u32) -> ProptestConfig {
     ProptestConfig {
@@ -144,21 +22,8 @@ fn config(cases: u32) -> ProptestConfig {
     }
 }
 
-fn bits(foot: &FootPoint) -> [u64; 9] {
-    let [x, y, z] = foot.point.map(f64::to_bits);
-    let [u, v] = [foot.u, foot.v].map(f64::to_bits);
-    let [distance, bound] = [foot.distance, foot.lower_bound].map(f64::to_bits);
-    [u, v, x, y, z, distance, bound, foot.flags.into(), foot.iterations.into()]
-}
-
-/// Not proven and all answers of each family, for the report of the first law.
-static SHARES: Mutex<[[usize; 4]; FAMILIES.len()]> = Mutex::new([[0; 4]; FAMILIES.len()]);
-
-fn count(family: usize, shape: &Shape, foot: &FootPoint) {
-    let mut shares = SHARES.lock().expect("the counts");
-    let base = if matches!(shape, Shape::Curve(_)) { 0 } else { 2 };
-    shares[family][base] += usize::from(foot.flags & flag::NOT_PROVEN != 0);
-    shares[family][base + 1] += 1;
+fn is_open(foot: &FootPoint) -> bool {
+    foot.flags & flag::NOT_PROVEN != 0
 }
 
 /// The bound is below every sample, the foot is the nearest up to the limit of the cases, and within the asked-for
@@ -170,8 +35,8 @@ fn least_of_samples(
     samples: &[[f64; 2]],
 ) -> Result<(), TestCaseError> {
     let slack = shape.rounding(query, foot.distance);
-    let proven = foot.flags & flag::NOT_PROVEN == 0;
-    let accuracy = if proven { shape.gap(query, foot.distance) } else { 1e-9 * shape.diagonal() };
+    let accuracy =
+        if is_open(foot) { 1e-9 * shape.diagonal() } else { shape.gap(query, foot.distance) };
     for at in samples {
         let there = apart(query, shape.evaluate(*at));
         prop_assert!(
@@ -192,7 +57,7 @@ fn least_of_neighbours(
     query: Vector,
     foot: &FootPoint,
 ) -> Result<(), TestCaseError> {
-    let slack = shape.rounding(query, foot.distance);
+    let slack = shape.rounding(query, foot.distance) + shape.grain(foot);
     let [u0, u1, v0, v1] = shape.domain();
     for k in 0..64 {
         let (step, angle) = (1e-3 * 0.3f64.powi(k / 4), f64::from(k % 4) * 1.6 + 0.3);
@@ -216,16 +81,27 @@ proptest! {
         for _ in 0..6 {
             let query = shape.query(r);
             let foot = shape.ask(query, None, &QueryOptions::default());
-            count(family, &shape, &foot);
             prop_assert_eq!(shape.evaluate([foot.u, foot.v]), foot.point);
             prop_assert!(foot.lower_bound <= foot.distance);
             least_of_samples(&shape, query, &foot, &samples)?;
-            least_of_neighbours(&shape, query, &foot)?;
         }
     }
 
     #[test]
-    fn a_hint_changes_neither_the_distance_nor_whether_it_is_proven(
+    fn no_neighbour_of_the_foot_is_nearer_than_the_foot(
+        family in 0..FAMILIES.len(), seed in any::<u64>(),
+    ) {
+        // Heavier weights make the distance so flat beside a pole that its last digits do not matter.
+        prop_assume!(FAMILIES[family].weights <= 3.0);
+        let (shape, r) = (Shape::new(family, seed), &mut Random(!seed));
+        for _ in 0..6 {
+            let query = shape.query(r);
+            least_of_neighbours(&shape, query, &shape.ask(query, None, &QueryOptions::default()))?;
+        }
+    }
+
+    #[test]
+    fn a_hint_takes_no_proof_away_and_leaves_a_proven_distance(
         family in 0..FAMILIES.len(), seed in any::<u64>(),
     ) {
         let (shape, r) = (Shape::new(family, seed), &mut Random(!seed));
@@ -237,15 +113,17 @@ proptest! {
             for hint in [[plain.u, plain.v], shape.place(r), [f64::MAX, -f64::MAX]] {
                 let hinted = shape.ask(query, Some(hint), &options);
                 let gap = shape.gap(query, plain.distance);
+                if is_open(&plain) {
+                    continue;
+                }
+                prop_assert!(!is_open(&hinted), "{plain:?} {hinted:?}");
                 prop_assert!((hinted.distance - plain.distance).abs() <= gap, "{plain:?} {hinted:?}");
-                let open = |foot: &FootPoint| foot.flags & flag::NOT_PROVEN;
-                prop_assert_eq!(open(&hinted), open(&plain), "{:?} {:?} {:?}", hint, plain, hinted);
             }
         }
     }
 
     #[test]
-    fn every_method_gives_the_same_certified_distance(
+    fn every_method_gives_the_same_proven_distance(
         family in 0..FAMILIES.len(), seed in any::<u64>(),
     ) {
         let (shape, r) = (Shape::new(family, seed), &mut Random(!seed));
@@ -256,9 +134,10 @@ proptest! {
             for method in [Method::Maf, Method::Newton, Method::Osculating] {
                 let foot = ask(method);
                 let gap = shape.gap(query, auto.distance);
+                if is_open(&auto) || is_open(&foot) {
+                    continue;
+                }
                 prop_assert!((foot.distance - auto.distance).abs() <= gap, "{method:?}: {foot:?} {auto:?}");
-                let open = |foot: &FootPoint| foot.flags & flag::NOT_PROVEN;
-                prop_assert_eq!(open(&foot), open(&auto), "{:?}: {:?} {:?}", method, foot, auto);
             }
         }
     }
@@ -285,13 +164,9 @@ proptest! {
             let query = shape.query(r);
             let foot = shape.ask(query, None, &options);
             prop_assert!(inside(&[foot.u, foot.v]), "{range:?} {foot:?}");
-            let slack = shape.rounding(query, foot.distance);
-            for at in &samples {
-                let there = apart(query, shape.evaluate(*at));
-                prop_assert!(foot.distance <= there + slack, "{range:?} {at:?} {there:e} {query:?} {foot:?}");
-                prop_assert!(foot.lower_bound <= there + slack, "{range:?} {at:?} {there:e} {foot:?}");
-            }
+            least_of_samples(&shape, query, &foot, &samples)?;
             let whole = shape.ask(query, None, &QueryOptions::default());
+            let slack = shape.rounding(query, foot.distance);
             prop_assert!(whole.lower_bound <= foot.distance + slack);
         }
     }
@@ -381,21 +256,34 @@ proptest! {
     }
 }
 
+/// Not proven answers among 25 queries on each of 60 curves or surfaces of a family.
+fn open_of(family: usize, surfaces: bool, method: Method) -> usize {
+    let options = QueryOptions { method, ..QueryOptions::default() };
+    let mut workspace = Workspace::default();
+    let mut open = 0;
+    for seed in 0..60 {
+        let seed = 2 * seed + u64::from(surfaces);
+        let (shape, r) = (Shape::new(family, seed), &mut Random(seed));
+        open += (0..25)
+            .filter(|_| is_open(&shape.ask_with(shape.query(r), None, &options, &mut workspace)))
+            .count();
+    }
+    open
+}
+
 #[test]
-fn most_answers_of_every_family_are_proven() {
+fn at_most_one_answer_in_a_hundred_of_every_family_is_not_proven_with_any_method() {
+    let methods = [Method::Auto, Method::Maf, Method::Newton, Method::Osculating];
+    let mut broken = Vec::new();
     for (family, kind) in FAMILIES.iter().enumerate() {
-        for seed in 0..60 {
-            let (shape, r) = (Shape::new(family, seed), &mut Random(seed));
-            for _ in 0..25 {
-                let foot = shape.ask(shape.query(r), None, &QueryOptions::default());
-                count(family, &shape, &foot);
+        for surfaces in [false, true] {
+            let open = methods.map(|method| open_of(family, surfaces, method));
+            let (all, what) = (60 * 25, if surfaces { "surfaces" } else { "curves" });
+            println!("{:<24} {what:<8} not proven of {all}, {methods:?}: {open:?}", kind.name);
+            if open.iter().any(|open| *open > all / 100) {
+                broken.push((kind.name, what, open));
             }
         }
-        let [curves, of_curves, surfaces, of_surfaces] = SHARES.lock().expect("the counts")[family];
-        println!(
-            "{:<24} not proven: curves {curves} of {of_curves}, surfaces {surfaces} of {of_surfaces}",
-            kind.name
-        );
-        assert!(curves <= of_curves / 100 && surfaces <= of_surfaces / 100, "{}", kind.name);
     }
+    assert!(broken.is_empty(), "{broken:?}");
 }

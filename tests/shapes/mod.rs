@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "each test file uses its own part")]
 
+pub mod asked;
+
 use footpoint::curve::Curve;
 use footpoint::surface::Surface;
 
