@@ -61,13 +61,19 @@ impl Shape {
 
     /// A grid over the spans, all knots in it.
     pub fn samples(&self) -> Vec<[f64; 2]> {
+        self.samples_of(if matches!(self, Self::Curve(_)) { 40 } else { 12 })
+    }
+
+    /// The same with `per_span` places in each span and direction.
+    pub fn samples_of(&self, per_span: usize) -> Vec<[f64; 2]> {
         match self {
             Self::Curve(curve) => {
-                samples(curve.curve().knots(), 40).into_iter().map(|u| [u, 0.0]).collect()
+                let us = samples(curve.curve().knots(), per_span);
+                us.into_iter().map(|u| [u, 0.0]).collect()
             }
             Self::Surface(surface) => {
-                let vs = samples(surface.surface().knots_v(), 12);
-                let us = samples(surface.surface().knots_u(), 12);
+                let vs = samples(surface.surface().knots_v(), per_span);
+                let us = samples(surface.surface().knots_u(), per_span);
                 us.into_iter().flat_map(|u| vs.iter().map(move |v| [u, *v])).collect()
             }
         }
