@@ -206,6 +206,7 @@ fn the_flags_of_the_place_say_where_the_parameters_are() {
 
 /// Off the shape, so that rounding of the query cannot move the foot into the inside; and on edges that are
 /// collapsed exactly (where an edge of CAD data is open by a billionth, its neighbourhood is as near as itself).
+/// Beside the pole of a sphere a place inside may be as near to the last digit; everywhere else it is not.
 #[test]
 fn a_foot_on_the_border_is_found_there_and_flagged() {
     check(|case, row, foot, _| {
@@ -227,7 +228,8 @@ fn a_foot_on_the_border_is_found_there_and_flagged() {
             "pole" if (0..4).any(|k| on[k] && collapsed(k)) => flag::COLLAPSED,
             _ => 0,
         };
-        foot.flags & bit == bit
+        let told_apart = (foot.distance - row.distance).abs() > rounding(case, row);
+        foot.flags & bit == bit || !told_apart
     });
 }
 
