@@ -1,0 +1,173 @@
+//! A query allocates nothing once its workspace has grown to the shape, counted by the allocator.
+//!
+//! The one place outside the C layer with `unsafe`: an allocator cannot be written without it.
+#![allow(unsafe_code, reason = "the counting allocator")]
+
+mod shapes;
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+use footpoint::batch;
+use footpoint::closest::{FootPoint, QueryOptions, Scope, Workspace};
+use footpoint::curve::Curve;
+use footpoint::index::{IndexedCurve, IndexedSurface};
+use footpoint::refine::Method;
+use footpoint::surface::Surface;
+use shapes::asked::Shape;
+use shapes::{FAMILIES, Random, Vector};
+
+struct Counting;
+
+thread_local! {
+    static COUNT: Cell<usize> = const { Cell::new(0) };
+}
+
+// SAFETY: hands everything on to the system's allocator; the counter is a plain number of the thread.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        let _ = COUNT.try_with(|count| count.set(count.get() + 1));
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { System.dealloc(pointer, layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        let _ = COUNT.try_with(|count| count.set(count.get() + 1));
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Allocations of this thread during `work`.
+fn allocations(work: impl FnOnce()) -> usize {
+    let before = COUNT.with(Cell::get);
+    work();
+    COUNT.with(Cell::get) - before
+}
+
+/// The surface of a meridian in the plane y = 0 turned about the z axis, as nine rational columns.
+fn turned(knots_v: &[f64], degree_v: usize, meridian: &[([f64; 2], f64)]) -> Surface {
+    let c = 0.5f64.sqrt();
+    let ring = [(1., 0., 1.), (1., 1., c), (0., 1., 1.), (-1., 1., c), (-1., 0., 1.)];
+    let ring = ring.into_iter().chain([(-1., -1., c), (0., -1., 1.), (1., -1., c), (1., 0., 1.)]);
+    let (mut poles, mut weights) = (Vec::new(), Vec::new());
+    for (x, y, w) in ring {
+        for ([radius, z], weight) in meridian {
+            poles.push([radius * x, radius * y, *z]);
+            weights.push(w * weight);
+        }
+    }
+    let knots_u = [0., 0., 0., 1., 1., 2., 2., 3., 3., 4., 4., 4.];
+    let count = meridian.len();
+    Surface::new(&knots_u, knots_v, 2, degree_v, &poles, 9, count, Some(&weights))
+        .expect("a surface")
+}
+
+fn sphere() -> Surface {
+    let c = 0.5f64.sqrt();
+    let half = [([0., -1.], 1.), ([1., -1.], c), ([1., 0.], 1.), ([1., 1.], c), ([0., 1.], 1.)];
+    turned(&[0., 0., 0., 1., 1., 2., 2., 2.], 2, &half)
+}
+
+fn cone() -> Surface {
+    turned(&[0., 0., 1., 1.], 1, &[([0., 0.], 1.), ([2., 3.], 1.)])
+}
+
+/// Curves and surfaces of every kind: sphere and cone with their collapsed edges, each family, high degrees.
+fn shapes() -> Vec<(String, Shape)> {
+    let mut all = vec![
+        ("sphere".into(), Shape::Surface(IndexedSurface::new(sphere()))),
+        ("cone".into(), Shape::Surface(IndexedSurface::new(cone()))),
+    ];
+    for (k, family) in FAMILIES.iter().enumerate() {
+        for seed in 0..2 {
+            all.push((format!("{} {seed}", family.name), Shape::new(k, seed)));
+        }
+    }
+    let r = &mut Random(1);
+    for degrees in [[15, 15], [31, 2], [31, 31]] {
+        let surface = shapes::surface_of(&FAMILIES[1], degrees, [1, 1], r);
+        all.push((format!("degrees {degrees:?}"), Shape::Surface(IndexedSurface::new(surface))));
+    }
+    let curve: Curve = shapes::curve_of(&FAMILIES[1], 31, 3, r);
+    all.push(("degree 31".into(), Shape::Curve(IndexedCurve::new(curve))));
+    all
+}
+
+fn queries(shape: &Shape, count: usize) -> Vec<Vector> {
+    let r = &mut Random(7);
+    (0..count).map(|_| shape.query(r)).collect()
+}
+
+#[test]
+fn a_query_allocates_nothing_with_a_workspace_that_has_seen_the_shape() {
+    let [auto, maf, newton, osculating] =
+        [Method::Auto, Method::Maf, Method::Newton, Method::Osculating]
+            .map(|method| QueryOptions { method, ..QueryOptions::default() });
+    for (name, shape) in shapes() {
+        let (queries, [u0, u1, v0, v1]) = (queries(&shape, 40), shape.domain());
+        let boxed = QueryOptions {
+            domain: Some([0.7 * u0 + 0.3 * u1, u1, v0, 0.4 * v0 + 0.6 * v1]),
+            ..auto
+        };
+        let mut workspace = Workspace::default();
+        for (kind, options) in [
+            ("auto", auto),
+            ("maf", maf),
+            ("newton", newton),
+            ("osculating", osculating),
+            ("box", boxed),
+        ] {
+            for hint in [None, Some([0.3 * u0 + 0.7 * u1, 0.5 * (v0 + v1)])] {
+                let mut ask = || {
+                    for query in &queries {
+                        shape.ask_with(*query, hint, &options, &mut workspace);
+                    }
+                };
+                ask();
+                let count = allocations(ask);
+                assert_eq!(count, 0, "{name}, {kind}, hint {hint:?}: {} queries", queries.len());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_local_query_from_a_hint_allocates_nothing() {
+    let local = QueryOptions { scope: Scope::Local, ..QueryOptions::default() };
+    for (name, shape) in shapes() {
+        let (queries, [u0, u1, v0, v1]) = (queries(&shape, 10), shape.domain());
+        let (hint, mut workspace) = ([0.3 * u0 + 0.7 * u1, 0.5 * (v0 + v1)], Workspace::default());
+        let mut ask = || {
+            for query in &queries {
+                shape.ask_with(*query, Some(hint), &local, &mut workspace);
+            }
+        };
+        ask();
+        assert_eq!(allocations(ask), 0, "{name}");
+    }
+}
+
+/// A batch keeps a list of its tiles, which doubles now and then; nothing else may grow with the queries.
+#[test]
+fn a_batch_allocates_as_often_for_many_queries_as_for_few() {
+    for (name, shape) in shapes() {
+        let queries = queries(&shape, 50);
+        let options = QueryOptions::default();
+        let run = |count: usize| {
+            let mut out = vec![FootPoint::unreached(); count];
+            let work = |i: usize, workspace: &mut Workspace| {
+                shape.ask_with(queries[i % queries.len()], None, &options, workspace)
+            };
+            allocations(|| batch::run(&mut out, 1, &work, &mut |_| false).expect("a batch"))
+        };
+        run(1);
+        let (few, many) = (run(100), run(1000));
+        assert!(many <= few + 3, "{name}: {few} allocations for 100 queries, {many} for 1000");
+    }
+}

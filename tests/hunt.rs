@@ -1,0 +1,126 @@
+//! A hunt for counterexamples: every family of shapes against an independent search.
+//!
+//! The long one runs on demand: `cargo test --release --test hunt -- --ignored --nocapture`.
+
+mod shapes;
+
+use footpoint::closest::{FootPoint, QueryOptions, Workspace, flag};
+use shapes::asked::Shape;
+use shapes::search::{Found, dense, search};
+use shapes::{FAMILIES, Random, Vector};
+
+/// Families so extreme that an answer which is marked as not proven may be far by more than a billionth: weights of
+/// neighbours that differ by 1e12, and spans so short that the doubles in them are too coarse for the foot.
+const EXTREME: [&str; 3] = ["weights 1e-6..1e6", "zero spans", "wild knots"];
+
+/// What was found against the library, and how many answers were not proven.
+#[derive(Default)]
+struct Bag {
+    /// Farther than the search, but marked.
+    wrong: Vec<String>,
+    /// A bound that is above the search, or an answer that is farther than it though proven.
+    unsound: Vec<String>,
+    open: usize,
+    queries: usize,
+}
+
+fn hunt(family: usize, seed: u64, bag: &mut Bag) {
+    let (shape, r) = (Shape::new(family, seed), &mut Random(!seed));
+    let (samples, mut workspace) = (dense(&shape), Workspace::default());
+    for _ in 0..20 {
+        let query = shape.query(r);
+        let foot = shape.ask_with(query, None, &QueryOptions::default(), &mut workspace);
+        judge(&shape, query, &foot, search(&shape, &samples, query), bag, (family, seed));
+    }
+}
+
+fn judge(
+    shape: &Shape,
+    query: Vector,
+    foot: &FootPoint,
+    found: Found,
+    bag: &mut Bag,
+    origin: (usize, u64),
+) {
+    let slack = shape.rounding(query, foot.distance);
+    let text = || {
+        let (excess, diagonal) = (foot.distance - found.distance, shape.diagonal());
+        format!(
+            "{origin:?} {query:?}: {:?} is nearer by {excess:e} of {diagonal:e}, {foot:?}",
+            found.at
+        )
+    };
+    let is_open = foot.flags & flag::NOT_PROVEN != 0;
+    bag.queries += 1;
+    bag.open += usize::from(is_open);
+    let is_wrong = foot.distance > found.distance + 1e-9 * shape.diagonal() + slack;
+    if foot.lower_bound > found.distance + slack || (is_wrong && !is_open) {
+        bag.unsound.push(text());
+    } else if is_wrong {
+        bag.wrong.push(text());
+    }
+}
+
+fn hunt_all(seeds: std::ops::Range<u64>) -> Vec<Bag> {
+    let threads = std::thread::available_parallelism().map_or(2, usize::from);
+    let next = std::sync::atomic::AtomicUsize::new(0);
+    let work = || {
+        let mut bags: Vec<Bag> = FAMILIES.iter().map(|_| Bag::default()).collect();
+        loop {
+            let job = next.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+            let (family, seed) =
+                (job % FAMILIES.len(), seeds.start + (job / FAMILIES.len()) as u64);
+            if seed >= seeds.end {
+                return bags;
+            }
+            hunt(family, seed, &mut bags[family]);
+        }
+    };
+    let mut total: Vec<Bag> = FAMILIES.iter().map(|_| Bag::default()).collect();
+    std::thread::scope(|scope| {
+        let handles: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        for bags in handles.into_iter().map(|handle| handle.join().expect("a hunter")) {
+            for (all, bag) in total.iter_mut().zip(bags) {
+                all.wrong.extend(bag.wrong);
+                all.unsound.extend(bag.unsound);
+                all.open += bag.open;
+                all.queries += bag.queries;
+            }
+        }
+    });
+    total
+}
+
+fn nothing_is_found(seeds: std::ops::Range<u64>) {
+    let bags = hunt_all(seeds);
+    let mut found: Vec<&String> = Vec::new();
+    for (family, bag) in FAMILIES.iter().zip(&bags) {
+        let (name, open, queries) = (family.name, bag.open, bag.queries);
+        let [wrong, unsound] = [&bag.wrong, &bag.unsound].map(Vec::len);
+        println!(
+            "{name:<24} {queries:6} queries, {open} not proven, {wrong} wrong, {unsound} unsound"
+        );
+        bag.wrong.iter().for_each(|text| println!("  {text}"));
+        found.extend(&bag.unsound);
+        if !EXTREME.contains(&name) {
+            found.extend(&bag.wrong);
+        }
+    }
+    assert!(
+        found.is_empty(),
+        "{} found, of them\n{:#?}",
+        found.len(),
+        &found[..found.len().min(20)]
+    );
+}
+
+#[test]
+fn no_search_finds_a_nearer_place_nor_one_below_the_bound() {
+    nothing_is_found(0..12);
+}
+
+#[test]
+#[ignore = "minutes; run on demand"]
+fn no_long_search_finds_a_nearer_place_nor_one_below_the_bound() {
+    nothing_is_found(1000..1400);
+}
