@@ -18,6 +18,8 @@ mod proof;
 
 mod certificate;
 
+mod differences;
+
 mod line;
 
 mod collapsed;
@@ -201,6 +203,17 @@ fn certify(foot: &mut FootPoint, proof: &Proof, frame: &Frame, allowed: f64) {
     if proof.is_tied() {
         foot.flags |= flag::TIE;
     }
+}
+
+/// The record of a query so far away that its square overflows in the shape's scale: any point will do, and nothing is
+/// nearer than that by more than the shape's diagonal.
+fn far_foot(mut foot: FootPoint, frame: &Frame, allowed: f64) -> FootPoint {
+    let bound = (foot.distance - 2.0 * frame.diagonal) * (1.0 - 16.0 * HALF_ULP);
+    foot.lower_bound = bound.max(0.0);
+    if foot.distance - foot.lower_bound > allowed {
+        foot.flags |= flag::NOT_PROVEN;
+    }
+    foot
 }
 
 /// The further flag of an inversion.

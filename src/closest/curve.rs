@@ -6,7 +6,7 @@ use super::local::{LOCAL_FLAGS, WholeCurve, curve_start};
 use super::proof::{Proof, Site, Watch};
 use super::{
     CONTINUUM_STEPS, FootPoint, MOST_GRAIN, QueryOptions, Scope, Workspace, certify,
-    default_budget, distance, flag, is_bad, mark_inversion, rounding_floor, ulp,
+    default_budget, distance, far_foot, flag, is_bad, mark_inversion, rounding_floor, ulp,
 };
 use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, sub};
 use crate::error::Error;
@@ -36,6 +36,7 @@ impl IndexedCurve {
             return FootPoint::bad_query();
         }
         let Ok(index) = self.index(&mut || false) else { return FootPoint::unreached() };
+        let hint = hint.filter(|u| u.is_finite());
         match options.scope {
             Scope::Local => self.local(index, query, hint, options, trace),
             Scope::Global => self.global(index, query, hint, options, workspace, trace),
@@ -122,7 +123,13 @@ impl IndexedCurve {
             search.start_at(u, &mut proof);
         }
         search.walk(workspace, &mut proof);
-        let Some(site) = proof.site else { return FootPoint::unreached() };
+        let Some(site) = proof.site else {
+            return far_foot(
+                self.foot_at(index, query, search.range[0], search.range),
+                &index.frame,
+                allowed,
+            );
+        };
         let mut foot = self.foot_at(index, query, search.parameter(site), search.range);
         certify(&mut foot, &proof, &index.frame, allowed);
         if foot.flags & flag::NOT_PROVEN != 0 {
@@ -302,7 +309,11 @@ impl CurveSearch<'_> {
             query: p,
             position,
             range,
-            border: [segment.border[0] || range[0] > 0.0, segment.border[1] || range[1] < 1.0],
+            // The caller's range decides: its local image may end on a piece's end without being one's own.
+            border: [
+                segment.border[0] || self.range[0] >= segment.u.ends[0],
+                segment.border[1] || self.range[1] <= segment.u.ends[1],
+            ],
             site: &site,
             method: self.options.method,
         };

@@ -184,6 +184,10 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         if least > self.proof.target_squared + interval.error {
             return Verdict::Closed;
         }
+        if self.proof.best == f64::INFINITY {
+            self.iterate(interval, place, self.line.range);
+            interval.error += 8.0 * HALF_ULP * self.proof.target_squared;
+        }
         if !self.proof.spend() || interval.high - interval.low < LEAST_WIDTH {
             return Verdict::GiveUp;
         }
@@ -195,9 +199,6 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
             if least > self.proof.target_squared + interval.error {
                 return Verdict::Closed;
             }
-        }
-        if self.proof.best == f64::INFINITY {
-            self.iterate(interval, place, self.line.range);
         }
         if let Some(end) = self.monotone(interval, at, least) {
             if self.is_border(interval, end) {
@@ -350,14 +351,9 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         }
         let slot = &mut self.memory.coefficients[at * self.slot..(at + 1) * self.slot];
         square(net, Bidegree { s: 0, t: p }, slot);
-        let steps = product_steps(3 * size);
-        *interval = Interval {
-            error: squared_error(self.line.position, radius, steps)
-                + 8.0 * HALF_ULP * self.proof.target_squared,
-            radius,
-            age: 0,
-            ..*interval
-        };
+        let mu = if self.proof.best.is_finite() { self.proof.target_squared } else { 0.0 };
+        let error = squared_error(self.line.position, radius, product_steps(3 * size));
+        *interval = Interval { error: error + 8.0 * HALF_ULP * mu, radius, age: 0, ..*interval };
         false
     }
 

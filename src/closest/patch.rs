@@ -9,6 +9,7 @@ use super::certificate::{
     subtract_query, value_at,
 };
 use super::collapsed::{along, rational_slope_extent, slope_extent};
+use super::differences::{Slopes, convexity};
 use super::line::{Given, Line, LineMemory, search_line};
 use super::proof::{Proof, Site};
 use crate::bezier::{Bidegree, cut, halve_s, halve_t};
@@ -112,12 +113,6 @@ enum Verdict {
     GiveUp,
 }
 
-/// Extents of the first differences of `h`, per direction.
-struct Slopes {
-    s: (f64, f64),
-    t: (f64, f64),
-}
-
 impl Walk<'_, '_, '_> {
     fn run(&mut self) -> bool {
         let start = self.proof.spent;
@@ -125,28 +120,8 @@ impl Walk<'_, '_, '_> {
         let mut first = Area { s: [s0, s1], t: [t0, t1], ..Area::default() };
         self.proof.spread = self.proof.spread.max(self.sheet.patch.spread);
         self.look_at_collapsed_sides();
-        let net = &self.sheet.net;
-        let (query, position) = (self.sheet.query, self.sheet.position);
-        if self.proof.best.is_finite()
-            && foot_plane_separates(
-                net.poles,
-                net.degree.count(),
-                net.rational,
-                query,
-                self.proof,
-                position,
-            )
-        {
+        if self.open(&mut first) {
             return true;
-        }
-        let whole = self.sheet.range == [0.0, 1.0, 0.0, 1.0];
-        match self.sheet.tensors {
-            Some(tensors) if whole => self.multiply(tensors, &mut first),
-            _ => {
-                if self.load(&mut first, 0) {
-                    return true;
-                }
-            }
         }
         self.memory.waiting.push(first);
         while let Some(mut area) = self.memory.waiting.pop() {
@@ -168,6 +143,25 @@ impl Walk<'_, '_, '_> {
             }
         }
         true
+    }
+
+    /// The coefficients of the whole range in slot 0; true when a plane already separates the query.
+    fn open(&mut self, first: &mut Area) -> bool {
+        let (net, query, position) = (&self.sheet.net, self.sheet.query, self.sheet.position);
+        let count = net.degree.count();
+        let known = self.proof.best.is_finite();
+        if known
+            && foot_plane_separates(net.poles, count, net.rational, query, self.proof, position)
+        {
+            return true;
+        }
+        match self.sheet.tensors {
+            Some(tensors) if self.sheet.range == [0.0, 1.0, 0.0, 1.0] => {
+                self.multiply(tensors, first);
+                false
+            }
+            _ => self.load(first, 0),
+        }
     }
 
     /// The collapsed points are candidates of their own.
@@ -260,6 +254,14 @@ impl Walk<'_, '_, '_> {
         if self.all_beyond(at, self.proof.target_squared + area.error) {
             return Verdict::Closed;
         }
+        if self.proof.best == f64::INFINITY {
+            let start = self.start(area, self.least_ratio(at).1);
+            self.iterate(self.sheet.range, start);
+            area.error += 8.0 * HALF_ULP * self.proof.target_squared;
+            if self.proof.is_trivial() {
+                return Verdict::Closed;
+            }
+        }
         let wide = (area.s[1] - area.s[0]).max(area.t[1] - area.t[0]) >= LEAST_WIDTH;
         if !self.proof.spend() || !wide {
             return Verdict::GiveUp;
@@ -270,14 +272,6 @@ impl Walk<'_, '_, '_> {
                 return Verdict::Closed;
             }
             (least, place) = self.least_ratio(at);
-        }
-        if self.proof.best == f64::INFINITY {
-            let start = self.start(area, place);
-            self.iterate(self.sheet.range, start);
-            area.error += 8.0 * HALF_ULP * self.proof.target_squared;
-            if self.proof.is_trivial() {
-                return Verdict::Closed;
-            }
         }
         let weight = if self.sheet.net.rational { extent(self.c(at)).1 } else { 1.0 };
         let slopes = self.slopes(area, at, least);
@@ -292,12 +286,8 @@ impl Walk<'_, '_, '_> {
             return Verdict::Closed;
         }
         self.probe(area, place);
-        let size = |(low, high): (f64, f64), n: usize| low.abs().max(high.abs()) * n as f64;
-        if size(slopes.s, self.degree.s) >= size(slopes.t, self.degree.t) {
-            Verdict::HalveS
-        } else {
-            Verdict::HalveT
-        }
+        let [along_s, along_t] = slopes.steepest(self.degree);
+        if along_s >= along_t { Verdict::HalveS } else { Verdict::HalveT }
     }
 
     /// Coefficients of `N - mu C` into half `part` of the scratch memory.
@@ -322,13 +312,9 @@ impl Walk<'_, '_, '_> {
         if parts == 2 {
             self.form(at, 1, reach * reach);
         }
-        let mut slopes = Slopes { s: NOTHING, t: NOTHING };
-        let width = self.degree.t + 1;
+        let mut slopes = Slopes::NONE;
         for h in self.memory.h[..parts * self.count].chunks_exact(self.count) {
-            slopes.s = merged(slopes.s, differences(h, width));
-            for row in h.chunks_exact(width) {
-                slopes.t = merged(slopes.t, differences(row, 1));
-            }
+            slopes.include(h, self.degree);
         }
         slopes
     }
@@ -483,46 +469,10 @@ impl Walk<'_, '_, '_> {
         }
     }
 
-    /// Lower bounds `a`, `c` of the pure second derivatives of `h` at the target and an upper bound `b` of the
-    /// mixed one, in the area's unit parameters, when `a c > b^2`: then `h` is convex.
+    /// Bounds of the second derivatives of `h` at the target (see [`convexity`]).
     fn curvature(&mut self, area: &Area, at: usize, weight: f64) -> Option<[f64; 3]> {
         self.form(at, 0, self.proof.target_squared);
-        let h = &self.memory.h[..self.count];
-        let (n, m) = (self.degree.s as f64, self.degree.t as f64);
-        let width = self.degree.t + 1;
-        let allowance = 4.0 * area.error * weight;
-        let (mut a, mut c, mut b) = (f64::INFINITY, f64::INFINITY, 0.0f64);
-        for (r0, (r1, r2)) in h
-            .chunks_exact(width)
-            .zip(h[width..].chunks_exact(width).zip(h[2 * width..].chunks_exact(width)))
-        {
-            for j in 0..width {
-                let d = (r2[j] - r1[j]) - (r1[j] - r0[j]);
-                a = if d < a { d } else { a };
-            }
-        }
-        let a = n * (n - 1.0) * (a - allowance);
-        if a.is_nan() || a <= 0.0 {
-            return None;
-        }
-        for row in h.chunks_exact(width) {
-            for w in row.windows(3) {
-                let d = (w[2] - w[1]) - (w[1] - w[0]);
-                c = if d < c { d } else { c };
-            }
-        }
-        let c = m * (m - 1.0) * (c - allowance);
-        if c.is_nan() || c <= 0.0 {
-            return None;
-        }
-        for (r0, r1) in h.chunks_exact(width).zip(h[width..].chunks_exact(width)) {
-            for j in 0..width - 1 {
-                let d = ((r1[j + 1] - r1[j]) - (r0[j + 1] - r0[j])).abs();
-                b = if d > b { d } else { b };
-            }
-        }
-        let b = n * m * (b + allowance);
-        (a * c * (1.0 - 1e-12) > b * b).then_some([a, b, c])
+        convexity(&self.memory.h[..self.count], self.degree, 4.0 * area.error * weight)
     }
 
     /// `h >= h(u) - g.M^-1.g / 2` on the area, with `M = [[a, -b], [-b, c]]` the worst Hessian for the slope's signs.
@@ -634,23 +584,6 @@ impl Walk<'_, '_, '_> {
         }
         self.memory.waiting.extend(pair);
     }
-}
-
-const NOTHING: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
-
-fn merged(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
-    (a.0.min(b.0), a.1.max(b.1))
-}
-
-/// Least and greatest of `h[k + step] - h[k]`.
-fn differences(h: &[f64], step: usize) -> (f64, f64) {
-    let (mut low, mut high) = NOTHING;
-    for (a, b) in h.iter().zip(&h[step..]) {
-        let d = b - a;
-        low = if d < low { d } else { low };
-        high = if d > high { d } else { high };
-    }
-    (low, high)
 }
 
 fn cut_area(component: &mut [f64], degree: Bidegree, area: &Area) {

@@ -5,7 +5,7 @@ use super::patch::{PatchMemory, Sheet, search_patch};
 use super::proof::{Proof, Site, Watch};
 use super::{
     CONTINUUM_STEPS, FootPoint, MOST_GRAIN, QueryOptions, Scope, Workspace, certify,
-    default_budget, distance, flag, is_bad, mark_inversion, rounding_floor, ulp,
+    default_budget, distance, far_foot, flag, is_bad, mark_inversion, rounding_floor, ulp,
 };
 use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, sub};
 use crate::error::Error;
@@ -37,6 +37,7 @@ impl IndexedSurface {
             return FootPoint::bad_query();
         }
         let Ok(index) = self.index(&mut || false) else { return FootPoint::unreached() };
+        let hint = hint.filter(|at| at.iter().all(|x| x.is_finite()));
         match options.scope {
             Scope::Local => self.local(index, query, hint, options, trace),
             Scope::Global => self.global(index, query, hint, options, workspace, trace),
@@ -125,7 +126,14 @@ impl IndexedSurface {
             search.start_at(at, &mut proof);
         }
         search.walk(workspace, &mut proof);
-        let Some(site) = proof.site else { return FootPoint::unreached() };
+        let Some(site) = proof.site else {
+            let corner = [search.range[0], search.range[2]];
+            return far_foot(
+                self.foot_at(index, query, corner, search.range),
+                &index.frame,
+                allowed,
+            );
+        };
         let mut foot = self.foot_at(index, query, search.parameters(site), search.range);
         certify(&mut foot, &proof, &index.frame, allowed);
         if foot.flags & flag::NOT_PROVEN != 0 {
@@ -336,9 +344,8 @@ impl SurfaceSearch<'_> {
         let at =
             [at[0].clamp(self.range[0], self.range[1]), at[1].clamp(self.range[2], self.range[3])];
         let rows = self.index.patches.len() / self.index.columns;
-        let row = (0..rows - 1)
-            .collect::<Vec<_>>()
-            .partition_point(|&i| self.index.patches[i * self.index.columns].u.ends[1] <= at[0]);
+        let first = |row: usize| &self.index.patches[row * self.index.columns];
+        let row = (1..rows).rev().find(|&row| first(row).u.ends[0] <= at[0]).unwrap_or(0);
         let column =
             self.index.patches[..self.index.columns - 1].partition_point(|p| p.v.ends[1] <= at[1]);
         let k = row * self.index.columns + column;
@@ -385,7 +392,10 @@ impl SurfaceSearch<'_> {
         let patch = &self.index.patches[k];
         let query = sub(self.query, patch.center);
         let position = position_error(self.steps, patch.radius, norm(query), norm(self.query));
-        let cut = [range[0] > 0.0, range[1] < 1.0, range[2] > 0.0, range[3] < 1.0];
+        // The caller's range decides: its local image may end on a piece's side without being one's own.
+        let [u0, u1, v0, v1] = self.range;
+        let (u, v) = (patch.u.ends, patch.v.ends);
+        let cut = [u0 >= u[0], u1 <= u[1], v0 >= v[0], v1 <= v[1]];
         let sheet = Sheet {
             net: self.index.net(k),
             patch,

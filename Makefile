@@ -1,0 +1,73 @@
+# The commands of README, CI and packagers. `make` alone prints this list.
+CARGO  ?= cargo
+BUILD  ?= build
+PREFIX ?= /usr/local
+JOBS   ?= $(shell nproc 2>/dev/null || echo 2)
+
+.PHONY: help build test test-rust test-c demo install clean
+
+help:
+	@echo "make build             build the library, shared and static, into $(BUILD)/lib"
+	@echo "make test              run every test"
+	@echo "make demo              run the demonstration (a minute); pictures go to demo-out/"
+	@echo "make install PREFIX=p  install library, headers and pkg-config file (default $(PREFIX))"
+	@echo "make clean             remove what was built"
+	@echo "Tools that are missing (cmake; for the tests also g++ and valgrind) are installed with apt by root;"
+	@echo "everybody else is told the one line to run. Settings: CARGO=$(CARGO) BUILD=$(BUILD) JOBS=$(JOBS)"
+
+# $(call need,<tools>): each tool is also the name of its package.
+define need
+@missing=""; \
+for tool in $(1); do command -v $$tool >/dev/null 2>&1 || missing="$$missing $$tool"; done; \
+if [ -z "$$missing" ]; then exit 0; fi; \
+if [ "$$(id -u)" != 0 ] || ! command -v apt-get >/dev/null 2>&1; then \
+  echo "missing:$$missing. Please run: sudo apt-get update && sudo apt-get install -y --no-install-recommends$$missing"; \
+  exit 1; \
+fi; \
+echo "installing with apt:$$missing"; \
+apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $$missing >/dev/null
+endef
+
+# $(call configure,<ON or OFF>): with or without the tests.
+define configure
+@cmake -S . -B $(BUILD) -DFOOTPOINT_CARGO="$$(command -v $(CARGO))" -DFOOTPOINT_BUILD_TESTS=$(1)
+endef
+
+build:
+	$(call need,cmake)
+	$(call configure,OFF)
+	cmake --build $(BUILD) --target footpoint_library
+
+test: test-rust test-c
+
+# rustfmt and clippy are no part of a minimal Rust installation: their checks say so and are left out there.
+test-rust:
+	@if $(CARGO) fmt --version >/dev/null 2>&1; then echo "cargo fmt --check"; $(CARGO) fmt --check; \
+	 else echo "left out: rustfmt is not installed (rustup component add rustfmt)"; fi
+	@if $(CARGO) clippy --version >/dev/null 2>&1; then echo "cargo clippy"; \
+	   $(CARGO) clippy --locked --all-targets --all-features -- -D warnings; \
+	 else echo "left out: clippy is not installed (rustup component add clippy)"; fi
+	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --locked --no-deps
+	$(CARGO) test --locked
+
+test-c:
+	$(call need,cmake g++ valgrind)
+	$(call configure,ON)
+	cmake --build $(BUILD) -j $(JOBS)
+	cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
+
+demo:
+	$(call need,cmake)
+	$(call configure,OFF)
+	cmake --build $(BUILD) -j $(JOBS)
+	$(BUILD)/examples/first_query
+	$(BUILD)/examples/paper_example
+	mkdir -p demo-out
+	$(BUILD)/examples/propeller demo-out
+
+install: build
+	cmake --install $(BUILD) --prefix "$(PREFIX)"
+
+clean:
+	rm -rf $(BUILD) demo-out
+	$(CARGO) clean

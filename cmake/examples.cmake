@@ -1,0 +1,23 @@
+# Each C file in examples/, and each folder there, is a program in <build>/examples. With the tests on, each runs as a
+# test; what a program in a folder writes goes to <build>/examples-out.
+file(GLOB footpoint_examples CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/examples/*)
+foreach(example ${footpoint_examples})
+  get_filename_component(name ${example} NAME_WE)
+  set(sources "")
+  set(arguments "")
+  if(IS_DIRECTORY ${example})
+    file(GLOB sources CONFIGURE_DEPENDS ${example}/*.c)
+    set(arguments ${PROJECT_BINARY_DIR}/examples-out 100000)
+  elseif(example MATCHES "\\.c$")
+    set(sources ${example})
+  endif()
+  if(sources)
+    add_executable(${name} ${sources})
+    set_target_properties(${name} PROPERTIES C_STANDARD 99 C_EXTENSIONS OFF
+      RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/examples)
+    target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic)
+    target_link_libraries(${name} PRIVATE footpoint::footpoint m)
+    add_test(NAME example_${name} COMMAND ${name} ${arguments})
+  endif()
+endforeach()
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/examples-out)

@@ -1,0 +1,196 @@
+// The C++17 layer: owners that move, errors that are thrown, vectors that are checked, answers that are the C API's.
+#include <footpoint.hpp>
+
+#include "samples.h"
+
+#include <cstring>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using footpoint::curve;
+using footpoint::surface;
+
+static_assert(!std::is_copy_constructible_v<curve> && !std::is_copy_assignable_v<surface>);
+static_assert(std::is_nothrow_move_constructible_v<curve> && std::is_nothrow_move_assignable_v<surface>);
+static_assert(std::is_trivially_copyable_v<fpt_foot_point>);
+
+// A call must throw the status, with a text that contains the words.
+template <class Call> void check_thrown(Call call, fpt_status status, const std::string &words) {
+    try {
+        call();
+        CHECK_MESSAGE(false, "nothing was thrown, expected %s", words.c_str());
+    } catch (const footpoint::error &error) {
+        CHECK_MESSAGE(error.status() == status, "%s instead of %s", error.status_name(), fpt_status_name(status));
+        CHECK_MESSAGE(std::string(error.what()).find(words) != std::string::npos, "the text is \"%s\"", error.what());
+    }
+}
+
+struct description {
+    std::vector<double> knots_u, knots_v, poles, weights;
+};
+
+description paper_vectors() {
+    const fpt_surface_data data = paper_surface(1);
+    return {{data.knots_u, data.knots_u + 11},
+            {data.knots_v, data.knots_v + 8},
+            {data.poles, data.poles + 84},
+            {data.weights, data.weights + 28}};
+}
+
+surface paper() {
+    const description d = paper_vectors();
+    return surface(3, 3, d.knots_u, d.knots_v, d.poles, d.weights);
+}
+
+curve circle() {
+    return curve(circle_curve());
+}
+
+bool same(const fpt_foot_point &a, const fpt_foot_point &b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+void answers_are_those_of_the_c_api() {
+    const surface shape = paper();
+    const curve round = circle();
+    const std::vector<double> points{300, 250, 100, 0, 0, 0, 575, 400, 0};
+    fpt_foot_point c[3];
+    CHECK_OK(fpt_surface_closest(shape.get(), points.data(), 3, nullptr, c));
+    const auto feet = shape.closest(points);
+    CHECK(feet.size() == 3 && same(feet[0], c[0]) && same(feet[1], c[1]) && same(feet[2], c[2]));
+    CHECK_OK(fpt_surface_invert(shape.get(), points.data(), 3, nullptr, c));
+    const auto inverted = shape.invert(points);
+    CHECK(inverted.size() == 3 && same(inverted[0], c[0]) && same(inverted[2], c[2]));
+    CHECK(inverted[0].flags & FPT_FOOT_NOT_ON_SHAPE);
+    CHECK_OK(fpt_curve_closest(round.get(), points.data(), 3, nullptr, c));
+    CHECK(same(round.closest(points)[1], c[1]));
+    CHECK_OK(fpt_curve_invert(round.get(), points.data(), 3, nullptr, c));
+    CHECK(same(round.invert(points)[2], c[2]));
+    CHECK(shape.closest({}).empty());
+    footpoint::query_options options;
+    options.point_stride = 6 * sizeof(double);
+    options.threads = 1;
+    const std::vector<double> with_normals{300, 250, 100, 0, 0, 1, 0, 0, 0, 0, 0, 1};
+    const auto strided = shape.closest(with_normals, options);
+    CHECK(strided.size() == 2 && same(strided[0], feet[0]) && same(strided[1], feet[1]));
+}
+
+void the_callers_own_records_are_filled() {
+    const surface shape = paper();
+    const curve round = circle();
+    const double point[3] = {300, 250, 100};
+    fpt_foot_point foot, again;
+    shape.closest(point, 1, nullptr, &foot);
+    CHECK(same(foot, shape.closest({300, 250, 100})[0]));
+    shape.invert(point, 1, nullptr, &again);
+    CHECK(again.distance == foot.distance);
+    round.closest(point, 1, nullptr, &foot);
+    round.invert(point, 1, nullptr, &again);
+    CHECK(again.distance == foot.distance);
+}
+
+void inputs_come_back() {
+    const description d = paper_vectors();
+    const surface shape = paper();
+    CHECK(shape.degree_u() == 3 && shape.degree_v() == 3 && shape.pole_count_u() == 7 && shape.pole_count_v() == 4);
+    CHECK(shape.knots_u() == d.knots_u && shape.knots_v() == d.knots_v);
+    CHECK(shape.poles() == d.poles && shape.weights() == d.weights);
+    CHECK(shape.is_rational() && !shape.is_closed_u() && !shape.is_closed_v());
+    CHECK(shape.domain()[1] == 1 && shape.box()[3] == 575);
+    const surface cone(cone_surface());
+    CHECK(cone.is_closed_u() && cone.collapsed_edges()[3] && !cone.collapsed_edges()[0]);
+    const curve round = circle();
+    CHECK(round.degree() == 2 && round.pole_count() == 9 && round.knots().size() == 12);
+    CHECK(round.poles()[0] == 3 && round.weights()[0] == 1);
+    CHECK(round.is_rational() && round.is_closed() && round.domain()[1] == 4 && round.box()[0] == -1);
+}
+
+void evaluations_are_those_of_the_c_api() {
+    const surface shape = paper();
+    const curve round = circle();
+    shape.prepare();
+    round.prepare();
+    double out[18];
+    CHECK_OK(fpt_surface_evaluate(shape.get(), 0.3, 0.7, 2, out));
+    const auto partials = shape.evaluate(0.3, 0.7, 2);
+    CHECK(partials.size() == 18 && std::memcmp(partials.data(), out, sizeof out) == 0);
+    const auto twice = shape.evaluate_many({0.1, 0.2, 0.3, 0.7}, 2);
+    CHECK(twice.size() == 36 && std::memcmp(twice.data() + 18, out, sizeof out) == 0);
+    CHECK_OK(fpt_curve_evaluate(round.get(), 1.5, 1, out));
+    const auto derivatives = round.evaluate(1.5, 1);
+    CHECK(derivatives.size() == 6 && std::memcmp(derivatives.data(), out, 6 * sizeof *out) == 0);
+    CHECK(round.evaluate_many({0.5, 1.5, 2.5}).size() == 9);
+    CHECK(round.evaluate(0).size() == 3);
+}
+
+void handles_move_and_are_handed_over() {
+    surface first = paper();
+    surface second = std::move(first);
+    CHECK(first.get() == nullptr && second.get() != nullptr);
+    check_thrown([&] { first.domain(); }, FPT_NULL_ARGUMENT, "surface");
+    first = std::move(second);
+    CHECK(first.domain()[1] == 1);
+    fpt_surface *raw = first.release();
+    CHECK(raw != nullptr && first.get() == nullptr);
+    const surface third(raw);
+    CHECK(third.pole_count_u() == 7);
+    std::vector<curve> many;
+    for (int i = 0; i < 10; i++) many.push_back(circle());
+    many.erase(many.begin() + 3);
+    CHECK(many.size() == 9 && many.back().closest({6, 0, 0})[0].distance == 3);
+}
+
+void failures_are_thrown() {
+    const description d = paper_vectors();
+    const surface shape = paper();
+    auto knots = d.knots_u;
+    knots[5] = 0.1;
+    check_thrown([&] { surface(3, 3, knots, d.knots_v, d.poles, d.weights); }, FPT_INVALID_ARGUMENT, "knots_u");
+    auto poles = d.poles;
+    poles[3 * 17 + 1] = NAN;
+    check_thrown([&] { surface(3, 3, d.knots_u, d.knots_v, poles); }, FPT_INVALID_ARGUMENT, "(4, 1)");
+    poles.pop_back();
+    check_thrown([&] { surface(3, 3, d.knots_u, d.knots_v, poles); }, FPT_INVALID_ARGUMENT, "poles");
+    check_thrown([&] { surface(3, 3, d.knots_u, d.knots_v, d.poles, {1, 1}); }, FPT_INVALID_ARGUMENT, "weights");
+    check_thrown([&] { surface(3, 3, {0, 1}, d.knots_v, d.poles); }, FPT_INVALID_ARGUMENT, "knots_u");
+    check_thrown([&] { surface(3, SIZE_MAX, d.knots_u, d.knots_v, d.poles); }, FPT_INVALID_ARGUMENT, "knots_v");
+    check_thrown([&] { curve(3, {0, 0, 1, 1}, {0, 0, 0}); }, FPT_INVALID_ARGUMENT, "knots");
+    check_thrown([&] { curve(1, {0, 0, 1, 1}, {0, 0, 0, 1}); }, FPT_INVALID_ARGUMENT, "poles");
+    check_thrown([&] { shape.evaluate(2, 0); }, FPT_INVALID_ARGUMENT, "u");
+    check_thrown([&] { shape.evaluate(0, 0, 32); }, FPT_INVALID_ARGUMENT, "derivatives");
+    check_thrown([&] { shape.evaluate_many({0.5}); }, FPT_INVALID_ARGUMENT, "parameters");
+    check_thrown([&] { shape.closest({1, 2}); }, FPT_INVALID_ARGUMENT, "points");
+    footpoint::query_options options;
+    options.method = 77;
+    check_thrown([&] { shape.closest({1, 2, 3}, options); }, FPT_INVALID_ARGUMENT, "method");
+}
+
+void a_stop_is_thrown_and_the_records_stay() {
+    const surface shape = paper();
+    footpoint::query_options options;
+    options.should_stop = [](void *) { return 1; };
+    const double point[3] = {300, 250, 100};
+    fpt_foot_point foot;
+    check_thrown([&] { shape.closest(point, 1, &options, &foot); }, FPT_CANCELLED, "");
+    CHECK(std::isnan(foot.distance) && foot.lower_bound == 0 && (foot.flags & FPT_FOOT_NOT_PROVEN));
+}
+
+void versions_agree() {
+    CHECK(footpoint::version() == FPT_VERSION && footpoint::abi_version() == FPT_ABI_VERSION);
+}
+
+} // namespace
+
+int main() {
+    RUN(answers_are_those_of_the_c_api);
+    RUN(the_callers_own_records_are_filled);
+    RUN(inputs_come_back);
+    RUN(evaluations_are_those_of_the_c_api);
+    RUN(handles_move_and_are_handed_over);
+    RUN(failures_are_thrown);
+    RUN(a_stop_is_thrown_and_the_records_stay);
+    RUN(versions_agree);
+    return check_report("wrapper");
+}

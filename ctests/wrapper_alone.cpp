@@ -1,0 +1,2 @@
+// The C++ layer needs nothing before it.
+#include <footpoint.hpp>

@@ -1,0 +1,94 @@
+//! One named test per defect that was found by attack; each failed before its repair.
+
+use footpoint::closest::{FootPoint, QueryOptions, Scope, Workspace, flag};
+use footpoint::curve::Curve;
+use footpoint::index::{IndexedCurve, IndexedSurface};
+use footpoint::surface::Surface;
+
+const C1_KNOTS: [f64; 10] = [0., 0., 0., 0., 1., 2., 3., 3., 3., 3.];
+
+fn line_of_six() -> IndexedCurve {
+    let poles: Vec<[f64; 3]> = (0..6).map(|i| [f64::from(i), 0., 0.]).collect();
+    IndexedCurve::new(Curve::new(&C1_KNOTS, 3, &poles, None).unwrap())
+}
+
+fn plane_of_36() -> IndexedSurface {
+    let poles: Vec<[f64; 3]> = (0..36).map(|k| [f64::from(k / 6), f64::from(k % 6), 0.]).collect();
+    IndexedSurface::new(Surface::new(&C1_KNOTS, &C1_KNOTS, 3, 3, &poles, 6, 6, None).unwrap())
+}
+
+fn circle() -> IndexedCurve {
+    let poles = [[1., 0.], [1., 1.], [-1., 1.], [-1., 0.], [-1., -1.], [1., -1.], [1., 0.]]
+        .map(|[x, y]| [x, y, 0.]);
+    let knots = [0., 0., 0., 1., 2., 2., 3., 4., 4., 4.];
+    let weights = [1., 0.5, 0.5, 1., 0.5, 0.5, 1.];
+    IndexedCurve::new(Curve::new(&knots, 2, &poles, Some(&weights)).unwrap())
+}
+
+fn within(domain: [f64; 4]) -> QueryOptions {
+    QueryOptions { domain: Some(domain), ..QueryOptions::default() }
+}
+
+fn ask_curve(
+    curve: &IndexedCurve,
+    query: [f64; 3],
+    hint: Option<f64>,
+    options: &QueryOptions,
+) -> FootPoint {
+    curve.closest(query, hint, options, &mut Workspace::default(), None)
+}
+
+#[test]
+fn a_restriction_that_ends_on_a_simple_knot_has_a_border_there() {
+    let foot = ask_curve(&line_of_six(), [-1., 1., 0.], Some(3.0), &within([1., 3., 0., 0.]));
+    assert_eq!((foot.u, foot.flags & flag::NOT_PROVEN), (1.0, 0));
+    let query = [-1., -1., 1.];
+    let options = within([1., 3., 1., 3.]);
+    let foot =
+        plane_of_36().closest(query, Some([3., 3.]), &options, &mut Workspace::default(), None);
+    assert_eq!(([foot.u, foot.v], foot.flags & flag::NOT_PROVEN), ([1.0, 1.0], 0));
+}
+
+#[test]
+fn the_seam_rule_does_not_leave_the_restriction() {
+    let foot = ask_curve(&circle(), [2., 0.5, 0.], None, &within([2.5, 4., 0., 0.]));
+    assert_eq!(foot.u, 4.0);
+    assert!(foot.flags & flag::SEAM != 0);
+}
+
+#[test]
+fn a_restriction_of_a_few_ulps_has_a_foot() {
+    for domain in
+        [[2.5, 2.5 + 4e-16, 0., 0.], [2.0 - 1e-15, 2.0, 0., 0.], [2.0, 2.0 + 1e-15, 0., 0.]]
+    {
+        let foot = ask_curve(&circle(), [3., 1., 0.5], None, &within(domain));
+        assert!(foot.u >= domain[0] && foot.u <= domain[1], "{domain:?}: {foot:?}");
+        assert!(foot.lower_bound <= foot.distance);
+        assert_eq!(foot.flags & flag::NOT_PROVEN, 0, "{domain:?} {foot:?}");
+    }
+    let query = [1., 1., 3.];
+    let options = within([1.0, 1.0 + 4e-16, 2.0 - 4e-16, 2.0]);
+    let foot = plane_of_36().closest(query, None, &options, &mut Workspace::default(), None);
+    assert!(
+        foot.u >= 1.0
+            && foot.u <= 1.0 + 4e-16
+            && foot.v <= 2.0
+            && foot.flags & flag::NOT_PROVEN == 0
+    );
+}
+
+#[test]
+fn a_query_whose_square_overflows_has_a_foot() {
+    let poles = [[0.; 3], [1e-60, 0., 0.]];
+    let curve = IndexedCurve::new(Curve::new(&[0., 0., 1., 1.], 1, &poles, None).unwrap());
+    let foot = ask_curve(&curve, [1e99, 0., 0.], None, &QueryOptions::default());
+    assert_eq!(foot.distance, 1e99);
+    assert!(foot.lower_bound <= foot.distance && foot.lower_bound > 0.99e99);
+}
+
+#[test]
+fn a_hint_that_is_no_number_is_no_hint() {
+    let options = QueryOptions { scope: Scope::Local, ..QueryOptions::default() };
+    let foot = ask_curve(&circle(), [0.9, 0.9, 0.], Some(f64::NAN), &options);
+    assert!(foot.u.is_finite() && foot.flags & flag::HINT_USED == 0);
+}
