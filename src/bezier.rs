@@ -83,29 +83,30 @@ fn blossom_row(knots: &Knots, span: usize, argument: impl Fn(usize) -> f64, row:
 
 /// Replaces the polynomial of `poles` (any number of interleaved strands) by its part on `[a, b]` of `[0, 1]`.
 ///
-/// `poles[k * stride + c]` is coefficient `k` of strand `c`, for `c < strands`.
+/// `poles[k * stride + c]` is coefficient `k` of strand `c`, for `c < strands`. Both factors of every step are formed
+/// from differences that keep their relative accuracy: `(b - a) / b`, not `1 - a / b`.
 pub fn cut(poles: &mut [f64], degree: usize, stride: usize, strands: usize, a: f64, b: f64) {
     if b < 1.0 {
+        let (x, y) = (b, 1.0 - b);
         for level in 1..=degree {
             for k in (level..=degree).rev() {
-                lerp_row(poles, (k - 1) * stride, k * stride, k * stride, strands, b);
+                blend(poles, [(k - 1) * stride, k * stride], k * stride, strands, [y, x]);
             }
         }
     }
     if a > 0.0 {
-        let x = a / b;
+        let (x, y) = (a / b, (b - a) / b);
         for level in 1..=degree {
             for k in 0..=degree - level {
-                lerp_row(poles, k * stride, (k + 1) * stride, k * stride, strands, x);
+                blend(poles, [k * stride, (k + 1) * stride], k * stride, strands, [y, x]);
             }
         }
     }
 }
 
-fn lerp_row(poles: &mut [f64], from: usize, to: usize, out: usize, strands: usize, x: f64) {
-    let y = 1.0 - x;
+fn blend(poles: &mut [f64], from: [usize; 2], out: usize, strands: usize, [y, x]: [f64; 2]) {
     for c in 0..strands {
-        poles[out + c] = poles[from + c] * y + poles[to + c] * x;
+        poles[out + c] = poles[from[0] + c] * y + poles[from[1] + c] * x;
     }
 }
 

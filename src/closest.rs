@@ -143,7 +143,7 @@ pub use crate::refine::Trace;
 #[derive(Clone, Debug, Default)]
 pub struct Workspace {
     queue: Queue,
-    deferred: Vec<usize>,
+    deferred: Vec<(f64, usize)>,
     line: line::LineMemory,
     patch: patch::PatchMemory,
 }
@@ -154,11 +154,12 @@ pub fn default_budget(coefficients: usize) -> u64 {
     (600_000 / coefficients as u64).clamp(150, 4_000)
 }
 
-/// The gap that rounding leaves at least, in the caller's lengths: 64 half ulps of the coordinates that meet
-/// (shape, query, distance), and the piece's own rounding twice.
+/// The gap that rounding leaves at least, in the caller's lengths: 16 half ulps of the largest coordinate of shape and
+/// query, and eight times what a position in the shape may be off (`position`, in the index's lengths): four on
+/// either side of the target.
 pub fn rounding_floor(frame: &Frame, query: Vector, position: f64) -> f64 {
     let largest = query.iter().fold(frame.magnitude, |m, x| m.max(x.abs()));
-    16.0 * HALF_ULP * largest + 4.0 * position / frame.scale
+    16.0 * HALF_ULP * largest + 8.0 * position / frame.scale
 }
 
 /// Steps in the local parameters at which a continuum of feet must still be one.
@@ -227,6 +228,17 @@ fn mark_inversion(foot: &mut FootPoint, tolerance: f64) {
 
 fn distance(query: Vector, point: Vector) -> f64 {
     norm(sub(query, point))
+}
+
+/// Rounding of a distance to a box of the tree: a few half ulps of the coordinates that meet there.
+fn tree_slack(query: Vector) -> f64 {
+    16.0 * HALF_ULP * (2.0 + norm(query))
+}
+
+/// Squared distance beyond which a box of the tree need not be opened, neither for the proof nor for a tie.
+fn tree_limit(proof: &Proof, slack: f64) -> f64 {
+    let reach = proof.best + proof.window() + slack;
+    reach * reach * (1.0 + 32.0 * HALF_ULP)
 }
 
 /// Checks one interval of a restriction against the domain.

@@ -13,6 +13,12 @@ pub fn squared_error(position: f64, radius: f64, steps: f64) -> f64 {
     (2.0 * radius + position) * position + steps * radius * radius
 }
 
+/// Whether coefficients of `C = W^2` are so small that underflow may have taken their digits: then no test of the box
+/// counts. Happens where weights of one piece differ by more than 1e130.
+pub fn underflows(c: &[f64]) -> bool {
+    c.iter().any(|&x| x < 1e-270)
+}
+
 /// `X - W p` in place of `X`; returns the greatest `|r| / W`.
 pub fn subtract_query(net: &mut [f64], count: usize, query: Vector) -> f64 {
     let (xyz, w) = net.split_at_mut(3 * count);

@@ -6,9 +6,10 @@ use super::local::{LOCAL_FLAGS, WholeCurve, curve_start};
 use super::proof::{Proof, Site, Watch};
 use super::{
     CONTINUUM_STEPS, FootPoint, MOST_GRAIN, QueryOptions, Scope, Workspace, certify,
-    default_budget, distance, far_foot, flag, is_bad, mark_inversion, rounding_floor, ulp,
+    default_budget, distance, far_foot, flag, is_bad, mark_inversion, rounding_floor, tree_limit,
+    tree_slack, ulp,
 };
-use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, sub};
+use crate::bounds::{Vector, cross, dot, norm, sub};
 use crate::error::Error;
 use crate::index::{CurveIndex, IndexedCurve, position_error, position_steps, product_steps};
 use crate::refine::{Trace, foot_on_curve};
@@ -103,7 +104,7 @@ impl IndexedCurve {
         let traced = trace.is_some();
         let q = index.frame.enter(query);
         let steps = position_steps(index.degree());
-        let worst = position_error(steps, 2.0, norm(q) + 2.0, norm(q));
+        let worst = position_error(steps, index.is_rational(), 2.0, norm(q) + 2.0, norm(q));
         let allowed =
             options.accuracy(&index.frame).max(rounding_floor(&index.frame, query, worst));
         let budget = if options.budget > 0 {
@@ -280,18 +281,15 @@ impl CurveSearch<'_> {
     }
 
     fn walk(&self, workspace: &mut Workspace, proof: &mut Proof) {
-        let slack = 16.0 * HALF_ULP * (2.0 + norm(self.query));
-        let limit = |proof: &Proof| {
-            let reach = proof.target + slack;
-            reach * reach * (1.0 + 32.0 * HALF_ULP)
-        };
+        let slack = tree_slack(self.query);
         self.index.tree.start(&mut workspace.queue);
         while let Some(next) = workspace.queue.pop() {
-            if proof.is_trivial() || next.key > limit(proof) {
+            let limit = tree_limit(proof, slack);
+            if proof.is_trivial() || next.key > limit {
                 return;
             }
             match next.piece() {
-                None => self.index.tree.open(next, self.query, limit(proof), &mut workspace.queue),
+                None => self.index.tree.open(next, self.query, limit, &mut workspace.queue),
                 Some(k) => self.search(k, &mut workspace.line, proof),
             }
         }
@@ -302,7 +300,13 @@ impl CurveSearch<'_> {
         let segment = &self.index.segments[k];
         let p = sub(self.query, segment.center);
         let size = norm(p);
-        let position = position_error(self.steps, segment.radius, size, norm(self.query));
+        let position = position_error(
+            self.steps,
+            self.index.is_rational(),
+            segment.radius,
+            size,
+            norm(self.query),
+        );
         let site = |s: f64| Site { piece: k, at: [s, 0.0] };
         let line = Line {
             segment: self.index.net(k),

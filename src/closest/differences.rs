@@ -65,7 +65,8 @@ pub fn convexity(h: &[f64], degree: Bidegree, allowance: f64) -> Option<[f64; 3]
         return None;
     }
     let b = n * m * (greatest_mixed(h, width) + allowance);
-    (a * c * (1.0 - 1e-12) > b * b).then_some([a, b, c])
+    // The determinant must keep enough digits for the first-order bound that divides by it.
+    (a * c * (1.0 - 1e-5) > b * b).then_some([a, b, c])
 }
 
 fn least_second_s(h: &[f64], width: usize) -> f64 {

@@ -8,7 +8,8 @@
 //! ```
 
 use super::certificate::{
-    free_slope, plane_separates, slope_error, square, squared_error, subtract_query, value_at,
+    free_slope, plane_separates, slope_error, square, squared_error, subtract_query, underflows,
+    value_at,
 };
 use super::proof::{Proof, Site};
 use crate::bezier::{Bidegree, cut, halve_t};
@@ -130,7 +131,9 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
                 if self.line.segment.rational {
                     self.memory.coefficients[self.count..self.slot].copy_from_slice(given.c);
                 }
-                (first.error, first.radius) = (given.error, given.radius);
+                let lost = underflows(given.c);
+                first.error = if lost { f64::INFINITY } else { given.error };
+                first.radius = given.radius;
             }
             None => {
                 if self.load(&mut first, 0) {
@@ -181,7 +184,7 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
 
     fn judge(&mut self, interval: &mut Interval, at: usize) -> Verdict {
         let (mut least, mut place) = self.least_ratio(at);
-        if least > self.proof.target_squared + interval.error {
+        if self.is_beyond(interval, least, place) {
             return Verdict::Closed;
         }
         if self.proof.best == f64::INFINITY {
@@ -196,7 +199,7 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
                 return Verdict::Closed;
             }
             (least, place) = self.least_ratio(at);
-            if least > self.proof.target_squared + interval.error {
+            if self.is_beyond(interval, least, place) {
                 return Verdict::Closed;
             }
         }
@@ -211,6 +214,17 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         }
         self.probe(interval, place);
         Verdict::Halve
+    }
+
+    /// Whether nothing in the interval is nearer than the target; a foot that ties is looked for on the way.
+    fn is_beyond(&mut self, interval: &Interval, least: f64, place: usize) -> bool {
+        if least.is_nan() || least <= self.proof.target_squared + interval.error {
+            return false;
+        }
+        if least <= self.proof.tie_squared() && self.proof.seeks_rivals() {
+            self.iterate(interval, place, [interval.low, interval.high]);
+        }
+        true
     }
 
     fn is_border(&self, interval: &Interval, end: usize) -> bool {
@@ -353,7 +367,9 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         square(net, Bidegree { s: 0, t: p }, slot);
         let mu = if self.proof.best.is_finite() { self.proof.target_squared } else { 0.0 };
         let error = squared_error(self.line.position, radius, product_steps(3 * size));
-        *interval = Interval { error: error + 8.0 * HALF_ULP * mu, radius, age: 0, ..*interval };
+        let lost = self.line.segment.rational && underflows(self.c(at));
+        let error = if lost { f64::INFINITY } else { error + 8.0 * HALF_ULP * mu };
+        *interval = Interval { error, radius, age: 0, ..*interval };
         false
     }
 

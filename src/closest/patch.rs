@@ -6,14 +6,14 @@
 
 use super::certificate::{
     foot_plane_separates, free_slope, plane_separates, slope_error, square, squared_error,
-    subtract_query, value_at,
+    subtract_query, underflows, value_at,
 };
 use super::collapsed::{along, rational_slope_extent, slope_extent};
 use super::differences::{Slopes, convexity};
 use super::line::{Given, Line, LineMemory, search_line};
 use super::proof::{Proof, Site};
 use crate::bezier::{Bidegree, cut, halve_s, halve_t};
-use crate::bounds::{HALF_ULP, Vector, dot, extent, norm};
+use crate::bounds::{HALF_ULP, Vector, dot, extent, least, norm};
 use crate::index::{Patch, product_steps, side};
 use crate::jet::{BezierPatch, BezierSegment, Jet2};
 use crate::knots::MAX_DEGREE;
@@ -206,13 +206,16 @@ impl Walk<'_, '_, '_> {
             }
         }
         let radius = self.sheet.patch.radius + square.sqrt();
-        self.set_error(area, radius, self.sheet.net.degree.count());
+        self.set_error(area, 0, radius, self.sheet.net.degree.count());
     }
 
-    fn set_error(&self, area: &mut Area, radius: f64, terms: usize) {
+    fn set_error(&self, area: &mut Area, at: usize, radius: f64, terms: usize) {
         let mu = if self.proof.target.is_finite() { self.proof.target_squared } else { 0.0 };
         area.error =
             squared_error(self.sheet.position, radius, product_steps(terms)) + 8.0 * HALF_ULP * mu;
+        if self.sheet.net.rational && underflows(self.c(at)) {
+            area.error = f64::INFINITY;
+        }
         area.radius = radius;
         area.age = 0;
     }
@@ -228,22 +231,35 @@ impl Walk<'_, '_, '_> {
     /// Whether all coefficients of `N - mu C` are positive.
     fn all_beyond(&self, at: usize, mu: f64) -> bool {
         if self.sheet.net.rational {
-            self.n(at).iter().zip(self.c(at)).all(|(n, c)| *n > mu * c)
+            // No early exit: the loop is short and runs in vectors.
+            self.n(at).iter().zip(self.c(at)).fold(true, |all, (n, c)| all & (*n > mu * c))
         } else {
-            self.n(at).iter().all(|n| *n > mu)
+            least(self.n(at)) > mu
         }
+    }
+
+    /// Whether nothing in the area is nearer than the target; a foot that ties is looked for on the way.
+    fn is_beyond(&mut self, area: &Area, at: usize) -> bool {
+        if !self.all_beyond(at, self.proof.target_squared + area.error) {
+            return false;
+        }
+        if !self.all_beyond(at, self.proof.tie_squared()) && self.proof.seeks_rivals() {
+            let start = self.start(area, self.least_ratio(at).1);
+            self.iterate([area.s[0], area.s[1], area.t[0], area.t[1]], start);
+        }
+        true
     }
 
     /// Least ratio N / C of the coefficients and its index.
     fn least_ratio(&self, at: usize) -> (f64, usize) {
-        let mut least = (f64::INFINITY, 0);
+        let mut found = (f64::INFINITY, 0);
         for (k, &n) in self.n(at).iter().enumerate() {
             let ratio = if self.sheet.net.rational { n / self.c(at)[k] } else { n };
-            if ratio < least.0 {
-                least = (ratio, k);
+            if ratio < found.0 {
+                found = (ratio, k);
             }
         }
-        least
+        found
     }
 
     fn bound(&self, area: &Area, at: usize) -> f64 {
@@ -251,7 +267,7 @@ impl Walk<'_, '_, '_> {
     }
 
     fn judge(&mut self, area: &mut Area, at: usize) -> Verdict {
-        if self.all_beyond(at, self.proof.target_squared + area.error) {
+        if self.is_beyond(area, at) {
             return Verdict::Closed;
         }
         if self.proof.best == f64::INFINITY {
@@ -266,15 +282,15 @@ impl Walk<'_, '_, '_> {
         if !self.proof.spend() || !wide {
             return Verdict::GiveUp;
         }
-        let (mut least, mut place) = self.least_ratio(at);
-        if area.age >= FRESH || (least > self.proof.target_squared && area.age > 0) {
-            if self.load(area, at) || self.all_beyond(at, self.proof.target_squared + area.error) {
+        let (mut bound, mut place) = self.least_ratio(at);
+        if area.age >= FRESH || (bound > self.proof.target_squared && area.age > 0) {
+            if self.load(area, at) || self.is_beyond(area, at) {
                 return Verdict::Closed;
             }
-            (least, place) = self.least_ratio(at);
+            (bound, place) = self.least_ratio(at);
         }
         let weight = if self.sheet.net.rational { extent(self.c(at)).1 } else { 1.0 };
-        let slopes = self.slopes(area, at, least);
+        let slopes = self.slopes(area, at, bound);
         let allowance = 2.0 * area.error * weight;
         for (k, (low, high)) in [slopes.s, slopes.t].into_iter().enumerate() {
             if low > allowance || high < -allowance {
@@ -305,9 +321,9 @@ impl Walk<'_, '_, '_> {
     }
 
     /// First differences of `h` over every squared distance that a nearest point in this area can have.
-    fn slopes(&mut self, area: &Area, at: usize, least: f64) -> Slopes {
+    fn slopes(&mut self, area: &Area, at: usize, bound: f64) -> Slopes {
         let reach = self.proof.best + self.proof.gap;
-        self.form(at, 0, (least - area.error).max(0.0));
+        self.form(at, 0, (bound - area.error).max(0.0));
         let parts = if self.sheet.net.rational { 2 } else { 1 };
         if parts == 2 {
             self.form(at, 1, reach * reach);
@@ -554,7 +570,7 @@ impl Walk<'_, '_, '_> {
             return true;
         }
         square(net, degree, &mut self.memory.coefficients[at * self.slot..(at + 1) * self.slot]);
-        self.set_error(area, radius, 3 * count);
+        self.set_error(area, at, radius, 3 * count);
         false
     }
 

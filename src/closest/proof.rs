@@ -5,6 +5,9 @@ use crate::bounds::{HALF_ULP, Vector, dot, norm, scaled, sub};
 /// Feet remembered for ties; more of them say no more.
 const RIVALS: usize = 6;
 
+/// Boxes searched for ties; a query on a continuum would have them all.
+const RIVAL_SEARCHES: usize = 8;
+
 /// Where the best foot lies: a piece and its local parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Site {
@@ -31,6 +34,7 @@ pub struct Proof<'t> {
     pub flat: Option<[f64; 2]>,
     rivals: [Vector; RIVALS],
     rival_count: usize,
+    rival_searches: usize,
     /// What must be proven everywhere: `best - gap`, at least zero.
     pub target: f64,
     /// An upper bound of the target's square.
@@ -65,6 +69,7 @@ impl<'t> Proof<'t> {
             flat: None,
             rivals: [[0.0; 3]; RIVALS],
             rival_count: 0,
+            rival_searches: 0,
             target: f64::INFINITY,
             target_squared: f64::INFINITY,
             lower: f64::INFINITY,
@@ -84,23 +89,44 @@ impl<'t> Proof<'t> {
         if distance.is_nan() || distance >= self.best {
             return;
         }
-        if self.best - distance <= self.window() {
-            self.rival(scaled(self.direction, self.best));
-        }
+        let old = scaled(self.direction, self.best);
         self.best = distance;
         self.direction = scaled(d, 1.0 / distance);
+        if self.site.is_some() {
+            self.rival(old);
+        }
         self.flat = flat();
         self.site = Some(site);
         self.target = (distance - self.gap).max(0.0);
         self.target_squared = self.target * self.target * (1.0 + 8.0 * HALF_ULP);
     }
 
-    /// Remembers a foot that may tie with the best one.
+    /// Remembers a foot that may tie with the best one; the best itself, met again, is none.
     pub fn rival(&mut self, d: Vector) {
-        if self.rival_count < RIVALS && norm(d) <= self.best + self.window() {
+        let near = norm(d) <= self.best + self.window();
+        if near && self.rival_count < RIVALS && self.is_elsewhere(d) {
             self.rivals[self.rival_count] = d;
             self.rival_count += 1;
         }
+    }
+
+    /// Whether it is worth looking for a foot in a box that is closed but for ties. Counts the calls.
+    pub fn seeks_rivals(&mut self) -> bool {
+        self.rival_searches += 1;
+        self.rival_count < RIVALS && self.rival_searches <= RIVAL_SEARCHES
+    }
+
+    /// Square of the greatest distance that ties.
+    pub fn tie_squared(&self) -> f64 {
+        let reach = self.best + self.window();
+        reach * reach
+    }
+
+    /// Forgets what was given up, for another walk with the same best foot.
+    pub fn restart(&mut self) {
+        self.lower = f64::INFINITY;
+        self.spent = 0;
+        self.exhausted = false;
     }
 
     /// How much farther a foot may be and still tie: the accuracy.
@@ -109,16 +135,16 @@ impl<'t> Proof<'t> {
     }
 
     /// Whether a remembered foot lies elsewhere, and as near as the best.
-    ///
-    /// Points around one foot are within the window up to a distance of `sqrt(2 window best / (1 - best k))` from
-    /// it, so rivals count from several times that on.
     pub fn is_tied(&self) -> bool {
-        let foot = scaled(self.direction, self.best);
-        let apart = 64.0 * self.window() * (self.best + self.window());
-        self.rivals[..self.rival_count].iter().any(|&d| {
-            let move_ = sub(d, foot);
-            norm(d) <= self.best + self.window() && dot(move_, move_) > apart
-        })
+        let near = |d: Vector| norm(d) <= self.best + self.window();
+        self.rivals[..self.rival_count].iter().any(|&d| near(d) && self.is_elsewhere(d))
+    }
+
+    /// Points around one foot are within the window up to `sqrt(2 window best / (1 - best k))` from it, so a foot
+    /// counts as another from several times that on.
+    fn is_elsewhere(&self, d: Vector) -> bool {
+        let move_ = sub(d, scaled(self.direction, self.best));
+        dot(move_, move_) > 64.0 * self.window() * (self.best + self.window())
     }
 
     /// Whether nothing is left to prove: every shape is at least zero away.

@@ -5,7 +5,8 @@ use super::patch::{PatchMemory, Sheet, search_patch};
 use super::proof::{Proof, Site, Watch};
 use super::{
     CONTINUUM_STEPS, FootPoint, MOST_GRAIN, QueryOptions, Scope, Workspace, certify,
-    default_budget, distance, far_foot, flag, is_bad, mark_inversion, rounding_floor, ulp,
+    default_budget, distance, far_foot, flag, is_bad, mark_inversion, rounding_floor, tree_limit,
+    tree_slack, ulp,
 };
 use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, sub};
 use crate::error::Error;
@@ -18,6 +19,10 @@ use super::curve::LEAST_CREASE;
 /// Boxes that one patch may take before the others have had their turn: a difficult patch that does not even
 /// hold the foot must not use up the budget. One query in a thousand gets here.
 const PATIENCE: u64 = 64;
+
+/// Patches, and starts in either direction of a patch, that are tried when the budget has run out.
+const RESCUE_PATCHES: usize = 16;
+const RESCUE_STARTS: usize = 4;
 
 impl IndexedSurface {
     /// The nearest point of the surface to `query`, with proof.
@@ -108,7 +113,7 @@ impl IndexedSurface {
         let traced = trace.is_some();
         let q = index.frame.enter(query);
         let steps = position_steps(index.degree.s + index.degree.t);
-        let worst = position_error(steps, 2.0, norm(q) + 2.0, norm(q));
+        let worst = position_error(steps, index.rational, 2.0, norm(q) + 2.0, norm(q));
         let allowed =
             options.accuracy(&index.frame).max(rounding_floor(&index.frame, query, worst));
         let coefficients = index.degree.times(index.degree).count();
@@ -351,36 +356,81 @@ impl SurfaceSearch<'_> {
         let k = row * self.index.columns + column;
         let Some(range) = self.local_range(k) else { return };
         let patch = &self.index.patches[k];
-        let view = (self.index.net(k), sub(self.query, patch.center));
-        let start = [patch.u.local(at[0]), patch.v.local(at[1])];
+        self.iterate_from(k, [patch.u.local(at[0]), patch.v.local(at[1])], range, proof);
+    }
+
+    /// The search; when the budget runs out, the foot is looked for by plain iterations from many starts, and if that
+    /// finds a nearer one, the search is tried once more with it.
+    fn walk(&self, workspace: &mut Workspace, proof: &mut Proof) {
+        self.walk_once(workspace, proof);
+        if proof.exhausted {
+            let before = proof.best;
+            self.rescue(workspace, proof);
+            if proof.best < before - proof.window() {
+                proof.restart();
+                self.walk_once(workspace, proof);
+            }
+        }
+    }
+
+    /// Iterates from a grid of starts in the nearest patches.
+    fn rescue(&self, workspace: &mut Workspace, proof: &mut Proof) {
+        let slack = tree_slack(self.query);
+        self.index.tree.start(&mut workspace.queue);
+        let mut pieces = 0;
+        while let Some(next) = workspace.queue.pop() {
+            let limit = tree_limit(proof, slack);
+            if next.key > limit || pieces == RESCUE_PATCHES {
+                return;
+            }
+            let Some(k) = next.piece() else {
+                self.index.tree.open(next, self.query, limit, &mut workspace.queue);
+                continue;
+            };
+            let Some([s0, s1, t0, t1]) = self.local_range(k) else { continue };
+            pieces += 1;
+            for start in 0..RESCUE_STARTS * RESCUE_STARTS {
+                let share = |i: usize| (i as f64 + 0.5) / RESCUE_STARTS as f64;
+                let (i, j) = (start / RESCUE_STARTS, start % RESCUE_STARTS);
+                let at = [s0 + share(i) * (s1 - s0), t0 + share(j) * (t1 - t0)];
+                self.iterate_from(k, at, [s0, s1, t0, t1], proof);
+            }
+        }
+    }
+
+    fn iterate_from(&self, k: usize, start: [f64; 2], range: [f64; 4], proof: &mut Proof) {
+        let view = (self.index.net(k), sub(self.query, self.index.patches[k].center));
         let (at, jet, taken) = foot_on_surface(&view, start, range, self.options.method, None);
         proof.evaluations += taken;
         proof.offer(Site { piece: k, at }, jet.d, || jet.flat_direction());
     }
 
-    fn walk(&self, workspace: &mut Workspace, proof: &mut Proof) {
-        let slack = 16.0 * HALF_ULP * (2.0 + norm(self.query));
-        let limit = |proof: &Proof| {
-            let reach = proof.target + slack;
-            reach * reach * (1.0 + 32.0 * HALF_ULP)
-        };
+    fn walk_once(&self, workspace: &mut Workspace, proof: &mut Proof) {
+        let slack = tree_slack(self.query);
         self.index.tree.start(&mut workspace.queue);
         workspace.deferred.clear();
         while let Some(next) = workspace.queue.pop() {
-            if proof.is_trivial() || next.key > limit(proof) {
+            let limit = tree_limit(proof, slack);
+            if proof.is_trivial() || next.key > limit {
+                break;
+            }
+            if proof.exhausted {
+                proof.give_up(next.key.sqrt() * (1.0 - 8.0 * HALF_ULP) - slack);
                 break;
             }
             match next.piece() {
-                None => self.index.tree.open(next, self.query, limit(proof), &mut workspace.queue),
+                None => self.index.tree.open(next, self.query, limit, &mut workspace.queue),
                 Some(k) => {
                     if !self.search(k, PATIENCE, &mut workspace.patch, proof) {
-                        workspace.deferred.push(k);
+                        workspace.deferred.push((next.key, k));
                     }
                 }
             }
         }
-        for &k in &workspace.deferred {
-            if !proof.is_trivial() {
+        for &(key, k) in &workspace.deferred {
+            if proof.exhausted {
+                proof.give_up(key.sqrt() * (1.0 - 8.0 * HALF_ULP) - slack);
+            } else if !proof.is_trivial() {
                 self.search(k, u64::MAX, &mut workspace.patch, proof);
             }
         }
@@ -391,7 +441,13 @@ impl SurfaceSearch<'_> {
         let Some(range) = self.local_range(k) else { return true };
         let patch = &self.index.patches[k];
         let query = sub(self.query, patch.center);
-        let position = position_error(self.steps, patch.radius, norm(query), norm(self.query));
+        let position = position_error(
+            self.steps,
+            self.index.rational,
+            patch.radius,
+            norm(query),
+            norm(self.query),
+        );
         // The caller's range decides: its local image may end on a piece's side without being one's own.
         let [u0, u1, v0, v1] = self.range;
         let (u, v) = (patch.u.ends, patch.v.ends);

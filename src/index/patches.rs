@@ -237,15 +237,15 @@ impl SurfaceIndex {
             let (u, v) = corner[k];
             let point = sub(self.frame.enter(surface.evaluate(u, v)), patch.center);
             let (last_i, last_j) = (self.degree.s, self.degree.t);
-            let mut moves = Vec::new();
+            let (mut moves, mut move_) = (Vec::new(), 0.0f64);
             self.visit_poles(start, |i, j, pole, weight| {
                 if [i == 0, i == last_i, j == 0, j == last_j][k] {
                     moves.push((i * (last_j + 1) + j, weight));
-                    patch.spread = patch.spread.max(norm(sub(pole, point)));
+                    move_ = move_.max(norm(sub(pole, point)));
                 }
             });
-            // The poles themselves are rounded, and so is the point.
-            patch.spread += 2.0 * position_steps(last_i + last_j) * patch.radius;
+            // The poles themselves are rounded, and so is the point; a corner may move once for each of its sides.
+            patch.spread += move_ + 2.0 * position_steps(last_i + last_j) * patch.radius;
             for (at, weight) in moves {
                 for c in 0..3 {
                     self.nets[start + c * self.degree.count() + at] = weight * point[c];

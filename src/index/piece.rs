@@ -49,19 +49,20 @@ pub fn power_of_two_over(x: f64) -> f64 {
 
 /// Rounding of a piece's net, one cut and one evaluation, relative to `|X/W| + |p|`; `degrees` is the summed degree.
 ///
-/// Counts the rows of `bezier`'s table: extraction 7, two ends of a cut 8, basis and sum 6 per degree and
-/// direction, rounded up to 24, and 32 for recentring, weighting and the division.
+/// Numerator and weight are rounded apart and both count: extraction and recentring `2 (6 d + 3)`, a cut with both ends
+/// `2 x 7 d`, the vector `r` 2; in all `26 d + 8`, rounded up to `28 d + 32` (`docs/rounding.md`).
 pub fn position_steps(degrees: usize) -> f64 {
-    (24 * degrees + 32) as f64 * HALF_ULP
+    (28 * degrees + 32) as f64 * HALF_ULP
 }
 
 /// How far `r / W` computed in a piece may be from the exact vector: `steps` from [`position_steps`], the piece's
 /// radius, |p| in the piece's frame and |q| in the shape's.
 ///
-/// The last term is the rounding of the frame: once for the poles (at most 2 away from the centre), once for the
-/// query, once more for each in the piece.
-pub fn position_error(steps: f64, radius: f64, p: f64, q: f64) -> f64 {
-    steps * (radius + p) + 8.0 * HALF_ULP * (2.0 + q)
+/// Where the weights are rounded (rational) they multiply the query too. The last term is the rounding of the frame:
+/// once for the poles (at most 2 away from the centre), once for the query, once more for each in the piece.
+pub fn position_error(steps: f64, rational: bool, radius: f64, p: f64, q: f64) -> f64 {
+    let weighted = if rational { radius + p } else { radius };
+    steps * weighted + 8.0 * HALF_ULP * (2.0 + p + q)
 }
 
 /// Rounding of a product coefficient relative to the sum of its absolute terms, of which there are `terms`.
@@ -101,27 +102,38 @@ impl Span {
 
     /// The local parameter of the caller's one, moved into [0, 1].
     pub fn local(&self, u: f64) -> f64 {
+        self.shifted(u, 0.0)
+    }
+
+    /// The local parameter of `u` moved by `margin` (a share of the piece).
+    ///
+    /// Both the distance to the start and that to the end are formed, so that neither end loses digits to the other
+    /// under a strong balance.
+    fn shifted(&self, u: f64, margin: f64) -> f64 {
         let [u0, u1] = self.ends;
-        if u <= u0 {
+        let s = (u - u0) / (u1 - u0) + margin;
+        let r = (u1 - u) / (u1 - u0) - margin;
+        if s <= 0.0 {
             return 0.0;
         }
-        if u >= u1 {
+        if r <= 0.0 {
             return 1.0;
         }
-        let s = (u - u0) / (u1 - u0);
-        if self.balance == 1.0 { s } else { s / (self.balance * (1.0 - s) + s) }
+        if self.balance == 1.0 { s } else { s / (self.balance * r + s) }
     }
 }
 
 impl Span {
-    /// The least local interval that holds the part of `[low, high]` inside the piece, rounding included: the map has
-    /// five roundings, so four ulps of one on either side. Empty (`[x, x]`) when nothing is inside.
+    /// The least local interval that holds the part of `[low, high]` inside the piece, rounding included: four ulps
+    /// of the piece before the balance, and four after it. Empty (`[x, x]`) when nothing is inside.
     pub fn cover(&self, [low, high]: [f64; 2]) -> [f64; 2] {
         if high <= self.ends[0] || low >= self.ends[1] {
             return [self.local(low); 2];
         }
         let margin = 8.0 * HALF_ULP;
-        [(self.local(low) - margin).max(0.0), (self.local(high) + margin).min(1.0)]
+        let low = self.shifted(low, -margin);
+        let high = self.shifted(high, margin);
+        [(low * (1.0 - margin) - margin).max(0.0), (high * (1.0 + margin) + margin).min(1.0)]
     }
 }
 

@@ -136,6 +136,11 @@ impl CurveIndex {
         self.degree
     }
 
+    /// Whether weights are there.
+    pub fn is_rational(&self) -> bool {
+        self.rational
+    }
+
     /// Segment `k`'s poles.
     pub fn net(&self, k: usize) -> BezierSegment<'_> {
         let width = (self.degree + 1) * if self.rational { 4 } else { 3 };

@@ -79,6 +79,7 @@ pub fn foot_on_surface(
     let mut taken = 1;
     tell(&mut trace, surface, 0, state.at, &jet);
     for count in 1..=method.steps() {
+        let held = state.held(jet.gradient());
         let Some((step, second_order)) = bounded_step(&state, &jet, method) else { break };
         let mut next = state.moved(step, 1.0);
         let size = state.size(next);
@@ -100,7 +101,8 @@ pub fn foot_on_surface(
         }
         (state.at, jet) = (next, candidate);
         tell(&mut trace, surface, count, state.at, &jet);
-        if last {
+        // A step with other parameters held than those that are held now proves nothing about the next one.
+        if last && state.held(jet.gradient()) == held {
             break;
         }
     }
@@ -151,11 +153,12 @@ fn bounded_step(state: &State, jet: &Jet2, method: Method) -> Option<([f64; 2], 
         let outward = (state.at[k] <= state.low(k) && step[k] < 0.0)
             || (state.at[k] >= state.high(k) && step[k] > 0.0);
         if outward {
-            let (other, order) = single(jet, 1 - k, method);
-            if state.size(state.moved(other, 1.0)) > LAST_STEP {
-                return Some((other, order));
+            // Taken one by one, coupled parameters converge at first order only.
+            let (other, _) = single(jet, 1 - k, method);
+            if state.size(state.moved(other, 1.0)) > NO_STEP {
+                return Some((other, false));
             }
-            return Some(single(jet, k, method));
+            return Some((single(jet, k, method).0, false));
         }
     }
     (g != [0.0; 2]).then_some((step, second_order))

@@ -10,6 +10,9 @@ use footpoint::surface::Surface;
 pub struct Row {
     pub query: [f64; 3],
     pub class: String,
+    /// One place that has the distance; curves have no second parameter.
+    #[allow(dead_code, reason = "the bench looks at distances only")]
+    pub place: [Option<f64>; 2],
     pub distance: f64,
 }
 
@@ -91,6 +94,7 @@ fn read_rows(folder: &Path) -> Vec<Row> {
             Row {
                 query: [number(0), number(1), number(2)],
                 class: f[3].into(),
+                place: [4, 5].map(|k: usize| f[k].parse().ok()),
                 distance: number(6),
             }
         })
