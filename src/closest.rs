@@ -148,10 +148,10 @@ pub struct Workspace {
     patch: patch::PatchMemory,
 }
 
-/// Boxes a query may look at by default: 4,000 for small pieces, fewer where a box costs more.
+/// Boxes a query may look at by default: 2,500 for small pieces, fewer where a box costs more.
 /// `coefficients` is the number of product coefficients of a piece: (2p+1) for curves, (2p+1)(2q+1) for surfaces.
 pub fn default_budget(coefficients: usize) -> u64 {
-    (600_000 / coefficients as u64).clamp(150, 4_000)
+    (400_000 / coefficients as u64).clamp(150, 2_500)
 }
 
 /// The gap that rounding leaves at least, in the caller's lengths: 16 half ulps of the largest coordinate of shape and

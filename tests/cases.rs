@@ -117,7 +117,7 @@ fn floor(case: &Case, row: &Row) -> (f64, usize) {
         }
     };
     let away = frame.enter(row.query).iter().map(|x| x * x).sum::<f64>().sqrt();
-    let position = position_error(position_steps(degrees), 2.0, away + 2.0, away);
+    let position = position_error(position_steps(degrees), true, 2.0, away + 2.0, away);
     (rounding_floor(frame, row.query, position), degrees)
 }
 

@@ -124,6 +124,7 @@ impl IndexedCurve {
             search.start_at(u, &mut proof);
         }
         search.walk(workspace, &mut proof);
+        search.polish(&mut proof);
         let Some(site) = proof.site else {
             return far_foot(
                 self.foot_at(index, query, search.range[0], search.range),
@@ -272,12 +273,31 @@ impl CurveSearch<'_> {
             .partition_point(|s| s.u.ends[1] <= u)
             .min(self.index.segments.len() - 1);
         let Some(range) = self.local_range(k) else { return };
-        let segment = &self.index.segments[k];
-        let view = (self.index.net(k), sub(self.query, segment.center));
-        let start = segment.u.local(u);
+        self.iterate_from(k, self.index.segments[k].u.local(u), range, proof);
+    }
+
+    fn iterate_from(&self, k: usize, start: f64, range: [f64; 2], proof: &mut Proof) {
+        let view = (self.index.net(k), sub(self.query, self.index.segments[k].center));
         let (s, jet, taken) = foot_on_curve(&view, start, range, self.options.method, None);
         proof.evaluations += taken;
-        proof.offer(Site { piece: k, at: [s, 0.0] }, jet.d, || jet.is_flat().then_some([1.0, 0.0]));
+        let flat = || jet.is_flat().then_some([1.0, 0.0]);
+        proof.offer(Site { piece: k, at: [s, 0.0] }, jet.d, flat);
+    }
+
+    /// Goes on in the neighbour when the best foot lies on the knot between two segments: the search leaves out what
+    /// is nearer by less than the accuracy, the foot should not.
+    fn polish(&self, proof: &mut Proof) {
+        let Some(site) = proof.site else { return };
+        let (piece, start) = match site.at[0] {
+            0.0 => (site.piece.wrapping_sub(1), 1.0),
+            1.0 => (site.piece + 1, 0.0),
+            _ => return,
+        };
+        if piece < self.index.segments.len() {
+            if let Some(range) = self.local_range(piece) {
+                self.iterate_from(piece, start, range, proof);
+            }
+        }
     }
 
     fn walk(&self, workspace: &mut Workspace, proof: &mut Proof) {

@@ -277,7 +277,7 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
     fn iterate(&mut self, interval: &Interval, place: usize, [low, high]: [f64; 2]) -> (f64, Jet1) {
         let curve = (self.line.segment, self.line.query);
         let start = self.abscissa(interval, place);
-        let (s, jet, taken) = match &mut self.proof.trace {
+        let mut found = match &mut self.proof.trace {
             None => foot_on_curve(&curve, start, [low, high], self.line.method, None),
             Some(watch) => {
                 let mut tell =
@@ -285,6 +285,13 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
                 foot_on_curve(&curve, start, [low, high], self.line.method, Some(&mut tell))
             }
         };
+        if self.line.method == Method::Maf {
+            // The certificate needs the digits that a method of first order leaves.
+            let taken = found.2;
+            found = foot_on_curve(&curve, found.0, [low, high], Method::Auto, None);
+            found.2 += taken;
+        }
+        let (s, jet, taken) = found;
         self.proof.evaluations += taken;
         if (s > low || low == self.line.range[0]) && (s < high || high == self.line.range[1]) {
             self.proof.rival(jet.d);

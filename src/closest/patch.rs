@@ -451,7 +451,7 @@ impl Walk<'_, '_, '_> {
     fn iterate(&mut self, range: [f64; 4], start: [f64; 2]) -> ([f64; 2], Jet2) {
         let surface = (self.sheet.net, self.sheet.query);
         let piece = self.sheet.piece;
-        let (at, jet, taken) = match &mut self.proof.trace {
+        let mut found = match &mut self.proof.trace {
             None => foot_on_surface(&surface, start, range, self.sheet.method, None),
             Some(watch) => {
                 let mut tell =
@@ -459,6 +459,13 @@ impl Walk<'_, '_, '_> {
                 foot_on_surface(&surface, start, range, self.sheet.method, Some(&mut tell))
             }
         };
+        if self.sheet.method == Method::Maf {
+            // The certificate needs the digits that a method of first order leaves.
+            let taken = found.2;
+            found = foot_on_surface(&surface, found.0, range, Method::Auto, None);
+            found.2 += taken;
+        }
+        let (at, jet, taken) = found;
         self.proof.evaluations += taken;
         let inner = |k: usize| {
             let [low, high] = [range[2 * k], range[2 * k + 1]];

@@ -131,6 +131,7 @@ impl IndexedSurface {
             search.start_at(at, &mut proof);
         }
         search.walk(workspace, &mut proof);
+        search.polish(&mut proof);
         let Some(site) = proof.site else {
             let corner = [search.range[0], search.range[2]];
             return far_foot(
@@ -395,6 +396,31 @@ impl SurfaceSearch<'_> {
                 let at = [s0 + share(i) * (s1 - s0), t0 + share(j) * (t1 - t0)];
                 self.iterate_from(k, at, [s0, s1, t0, t1], proof);
             }
+        }
+    }
+
+    /// Goes on in the neighbours when the best foot lies on the line between two patches: the search leaves out what
+    /// is nearer by less than the accuracy, the foot should not.
+    fn polish(&self, proof: &mut Proof) {
+        let Some(site) = proof.site else { return };
+        let (columns, rows) = (self.index.columns, self.index.patches.len() / self.index.columns);
+        let place = [site.piece / columns, site.piece % columns];
+        for k in 0..2 {
+            let forward = match site.at[k] {
+                0.0 => false,
+                1.0 => true,
+                _ => continue,
+            };
+            let mut next = place;
+            next[k] = if forward { place[k] + 1 } else { place[k].wrapping_sub(1) };
+            if next[k] >= [rows, columns][k] {
+                continue;
+            }
+            let piece = next[0] * columns + next[1];
+            let Some(range) = self.local_range(piece) else { continue };
+            let at = self.parameters(site);
+            let patch = &self.index.patches[piece];
+            self.iterate_from(piece, [patch.u.local(at[0]), patch.v.local(at[1])], range, proof);
         }
     }
 

@@ -90,13 +90,13 @@ pub fn foot_on_surface(
         let mut candidate = surface.jet(next[0], next[1]);
         taken += 1;
         let mut share = 1.0;
-        while !last && !improved(&candidate, &jet) && share > 1e-4 {
+        while !last && !improved(&candidate, &jet, held) && share > 1e-4 {
             share *= 0.5;
             next = state.moved(step, share);
             candidate = surface.jet(next[0], next[1]);
             taken += 1;
         }
-        if !last && !improved(&candidate, &jet) {
+        if !last && !improved(&candidate, &jet, held) {
             break;
         }
         (state.at, jet) = (next, candidate);
@@ -109,15 +109,17 @@ pub fn foot_on_surface(
     (state.at, jet, taken)
 }
 
-/// Nearer, or as near as rounding can tell and with a smaller gradient.
-fn improved(new: &Jet2, old: &Jet2) -> bool {
+/// Nearer, or as near as rounding can tell and with a smaller gradient in the parameters that are free.
+fn improved(new: &Jet2, old: &Jet2, held: [bool; 2]) -> bool {
     let (a, b) = (new.squared(), old.squared());
     if a < b - 1e-13 * b {
         return true;
     }
     let steepness = |jet: &Jet2| {
         let ([x, y], [e, _, g]) = (jet.gradient(), jet.metric());
-        x * x / (e + 1e-300) + y * y / (g + 1e-300)
+        let share =
+            |held: bool, x: f64, size: f64| if held { 0.0 } else { x * x / (size + 1e-300) };
+        share(held[0], x, e) + share(held[1], y, g)
     };
     a <= b + 1e-13 * b + 1e-28 && steepness(new) < steepness(old)
 }
