@@ -12,7 +12,7 @@ use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, sub};
 use crate::error::Error;
 use crate::index::{IndexedSurface, Span, SurfaceIndex, position_error, position_steps};
 use crate::knots::Knots;
-use crate::refine::{Trace, foot_on_surface};
+use crate::refine::{Method, Trace, foot_on_surface};
 
 use super::curve::LEAST_CREASE;
 
@@ -21,8 +21,10 @@ use super::curve::LEAST_CREASE;
 const PATIENCE: u64 = 64;
 
 /// Patches, and starts in either direction of a patch, that are tried when the budget has run out.
-const RESCUE_PATCHES: usize = 16;
-const RESCUE_STARTS: usize = 4;
+const RESCUE_PATCHES: usize = 8;
+const RESCUE_STARTS: usize = 3;
+/// Iterations that continue the best foot then.
+const PERSISTENCE: usize = 10;
 
 impl IndexedSurface {
     /// The nearest point of the surface to `query`, with proof.
@@ -357,7 +359,13 @@ impl SurfaceSearch<'_> {
         let k = row * self.index.columns + column;
         let Some(range) = self.local_range(k) else { return };
         let patch = &self.index.patches[k];
-        self.iterate_from(k, [patch.u.local(at[0]), patch.v.local(at[1])], range, proof);
+        self.iterate_from(
+            k,
+            [patch.u.local(at[0]), patch.v.local(at[1])],
+            range,
+            self.options.method,
+            proof,
+        );
     }
 
     /// The search; when the budget runs out, the foot is looked for by plain iterations from many starts, and if that
@@ -374,15 +382,28 @@ impl SurfaceSearch<'_> {
         }
     }
 
+    /// Goes on from the best foot until nothing moves: in a long valley one iteration is not enough.
+    fn persist(&self, proof: &mut Proof) {
+        for _ in 0..PERSISTENCE {
+            let (Some(site), before) = (proof.site, proof.best) else { return };
+            let Some(range) = self.local_range(site.piece) else { return };
+            self.iterate_from(site.piece, site.at, range, Method::Auto, proof);
+            if proof.best == before {
+                return;
+            }
+        }
+    }
+
     /// Iterates from a grid of starts in the nearest patches.
     fn rescue(&self, workspace: &mut Workspace, proof: &mut Proof) {
+        self.persist(proof);
         let slack = tree_slack(self.query);
         self.index.tree.start(&mut workspace.queue);
         let mut pieces = 0;
         while let Some(next) = workspace.queue.pop() {
             let limit = tree_limit(proof, slack);
             if next.key > limit || pieces == RESCUE_PATCHES {
-                return;
+                break;
             }
             let Some(k) = next.piece() else {
                 self.index.tree.open(next, self.query, limit, &mut workspace.queue);
@@ -394,9 +415,10 @@ impl SurfaceSearch<'_> {
                 let share = |i: usize| (i as f64 + 0.5) / RESCUE_STARTS as f64;
                 let (i, j) = (start / RESCUE_STARTS, start % RESCUE_STARTS);
                 let at = [s0 + share(i) * (s1 - s0), t0 + share(j) * (t1 - t0)];
-                self.iterate_from(k, at, [s0, s1, t0, t1], proof);
+                self.iterate_from(k, at, [s0, s1, t0, t1], Method::Auto, proof);
             }
         }
+        self.persist(proof);
     }
 
     /// Goes on in the neighbours when the best foot lies on the line between two patches: the search leaves out what
@@ -420,13 +442,26 @@ impl SurfaceSearch<'_> {
             let Some(range) = self.local_range(piece) else { continue };
             let at = self.parameters(site);
             let patch = &self.index.patches[piece];
-            self.iterate_from(piece, [patch.u.local(at[0]), patch.v.local(at[1])], range, proof);
+            self.iterate_from(
+                piece,
+                [patch.u.local(at[0]), patch.v.local(at[1])],
+                range,
+                self.options.method,
+                proof,
+            );
         }
     }
 
-    fn iterate_from(&self, k: usize, start: [f64; 2], range: [f64; 4], proof: &mut Proof) {
+    fn iterate_from(
+        &self,
+        k: usize,
+        start: [f64; 2],
+        range: [f64; 4],
+        method: Method,
+        proof: &mut Proof,
+    ) {
         let view = (self.index.net(k), sub(self.query, self.index.patches[k].center));
-        let (at, jet, taken) = foot_on_surface(&view, start, range, self.options.method, None);
+        let (at, jet, taken) = foot_on_surface(&view, start, range, method, None);
         proof.evaluations += taken;
         proof.offer(Site { piece: k, at }, jet.d, || jet.flat_direction());
     }

@@ -22,6 +22,9 @@ impl SurfaceJets for (BezierPatch<'_>, Vector) {
     }
 }
 
+/// Dampings that are tried one after the other when the second-order step fails.
+const DAMPING: [f64; 6] = [0.0, 1e-3, 0.1, 1.0, 30.0, 1e3];
+
 /// A parameter pair, its box and which of the two is held at a border.
 struct State {
     at: [f64; 2],
@@ -81,24 +84,24 @@ pub fn foot_on_surface(
     for count in 1..=method.steps() {
         let held = state.held(jet.gradient());
         let Some((step, second_order)) = bounded_step(&state, &jet, method) else { break };
-        let mut next = state.moved(step, 1.0);
-        let size = state.size(next);
+        let size = state.size(state.moved(step, 1.0));
         if size <= NO_STEP {
             break;
         }
         let last = second_order && size <= LAST_STEP;
-        let mut candidate = surface.jet(next[0], next[1]);
-        taken += 1;
-        let mut share = 1.0;
-        while !last && !improved(&candidate, &jet, held) && share > 1e-4 {
-            share *= 0.5;
-            next = state.moved(step, share);
-            candidate = surface.jet(next[0], next[1]);
-            taken += 1;
+        let accept = |candidate: &Jet2| last || improved(candidate, &jet, held);
+        let patience = if method == Method::Auto { 0.2 } else { 1e-4 };
+        let mut found = advance(surface, &state, step, patience, &accept, &mut taken);
+        if method == Method::Auto && held == [false; 2] {
+            // A second-order model that is wrong so far out: damped falls on the tangent plane, ever shorter.
+            for damping in DAMPING {
+                if found.is_none() {
+                    let step = damped_fall(&jet, damping);
+                    found = advance(surface, &state, step, 0.6, &accept, &mut taken);
+                }
+            }
         }
-        if !last && !improved(&candidate, &jet, held) {
-            break;
-        }
+        let Some((next, candidate)) = found else { break };
         (state.at, jet) = (next, candidate);
         tell(&mut trace, surface, count, state.at, &jet);
         // A step with other parameters held than those that are held now proves nothing about the next one.
@@ -107,6 +110,28 @@ pub fn foot_on_surface(
         }
     }
     (state.at, jet, taken)
+}
+
+/// The first of the step, its half, its quarter ... down to `least` that is accepted.
+fn advance(
+    surface: &impl SurfaceJets,
+    state: &State,
+    step: [f64; 2],
+    least: f64,
+    accept: &impl Fn(&Jet2) -> bool,
+    taken: &mut u32,
+) -> Option<([f64; 2], Jet2)> {
+    let mut share = 1.0;
+    while share > least {
+        let next = state.moved(step, share);
+        let candidate = surface.jet(next[0], next[1]);
+        *taken += 1;
+        if accept(&candidate) {
+            return Some((next, candidate));
+        }
+        share *= 0.5;
+    }
+    None
 }
 
 /// Nearer, or as near as rounding can tell and with a smaller gradient in the parameters that are free.
@@ -187,17 +212,34 @@ fn free_step(jet: &Jet2, method: Method) -> ([f64; 2], bool) {
     let g = jet.gradient();
     let [a, b, c] = jet.hessian();
     let newton = a > 0.0 && c > 0.0 && a * c - b * b > 1e-14 * a * c;
+    let step = solved([a, b, c], g);
     match method {
-        Method::Auto | Method::Newton if newton => (solved([a, b, c], g), true),
+        Method::Auto if newton && is_plausible(jet, step) => (step, true),
+        Method::Newton if newton => (step, true),
         Method::Maf | Method::Newton => (fall(jet, g), jet.squared() < 1e-14 * (a + c)),
         Method::Auto | Method::Osculating => (osculating(jet, g), newton),
     }
+}
+
+/// Whether a step moves the point by a few distances at most: on a plane the foot is one distance away at most, so
+/// a longer step comes from a Hessian that is nearly singular.
+fn is_plausible(jet: &Jet2, [x, y]: [f64; 2]) -> bool {
+    let [e, f, g] = jet.metric();
+    e * x * x + 2.0 * f * x * y + g * y * y <= 64.0 * jet.squared()
 }
 
 /// `-M^-1 g` for a symmetric positive definite 2 x 2 matrix.
 fn solved([a, b, c]: [f64; 3], g: [f64; 2]) -> [f64; 2] {
     let det = a * c - b * b;
     [(b * g[1] - c * g[0]) / det, (b * g[0] - a * g[1]) / det]
+}
+
+/// The fall on the tangent plane with the metric's diagonal enlarged: Levenberg's and Marquardt's step, which bends
+/// towards the steepest descent in a valley.
+fn damped_fall(jet: &Jet2, damping: f64) -> [f64; 2] {
+    let ([e, f, h], g) = (jet.metric(), jet.gradient());
+    let step = solved([e * (1.0 + damping), f, h * (1.0 + damping)], g);
+    if step.iter().all(|x| x.is_finite()) { step } else { [0.0; 2] }
 }
 
 /// The moving-affine-frame step: the fall on the tangent plane. Where the plane is degenerate the two
