@@ -98,7 +98,8 @@ typedef enum fpt_status_code {
  */
 typedef enum fpt_foot_flag {
     /**
-     * distance - lower_bound is more than the accuracy and the rounding floor of this shape and query.
+     * distance - lower_bound is more than the accuracy and the rounding floor of this shape and query; the grain of
+     * the parameters (at most 1e-9 of the box diagonal) counts as rounding too.
      */
     FPT_FOOT_NOT_PROVEN = 1,
     /**
@@ -118,11 +119,11 @@ typedef enum fpt_foot_flag {
      */
     FPT_FOOT_COLLAPSED = 16,
     /**
-     * Another foot is within the accuracy of the least distance.
+     * Another foot is within the accuracy of the least distance. Set when one was met; its absence proves nothing.
      */
     FPT_FOOT_TIE = 32,
     /**
-     * A whole arc or region is equally near.
+     * A whole arc or region is equally near. Set when it was met; its absence proves nothing.
      */
     FPT_FOOT_CONTINUUM = 64,
     /**
@@ -135,7 +136,7 @@ typedef enum fpt_foot_flag {
      */
     FPT_FOOT_BAD_QUERY = 256,
     /**
-     * The answer was reached from the hint.
+     * A hint was given and the search began there.
      */
     FPT_FOOT_HINT_USED = 512,
     /**
@@ -165,7 +166,7 @@ typedef enum fpt_method {
      */
     FPT_METHOD_NEWTON = 2,
     /**
-     * A second-order step on the osculating circle or paraboloid.
+     * A second-order step along the osculating circle, on surfaces along those of both principal directions.
      */
     FPT_METHOD_OSCULATING = 3,
 } fpt_method;
@@ -261,7 +262,8 @@ typedef struct fpt_query_options {
      */
     uint32_t reserved;
     /**
-     * Nodes and subdivisions per query; 0: the default. A query that runs out has FPT_FOOT_BUDGET.
+     * Nodes and subdivisions per query; 0: the default, 150 to 2,500 by degree. A query that runs out has
+     * FPT_FOOT_BUDGET.
      */
     uint64_t budget;
     /**

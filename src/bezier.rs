@@ -8,8 +8,8 @@
 //! |---|---|
 //! | extraction matrix entry | 5 p |
 //! | extraction applied | p + 1 more |
-//! | cut to an interval | 4 p per end |
-//! | basis value | 4 p |
+//! | cut to an interval | 4 p per end (3 p for the high one) |
+//! | basis value | 3 p |
 //!
 //! References: Borden et al., *Isogeometric finite element data structures based on Bezier extraction*, 2011
 //! (the matrix); Farouki, Rajan, *Algorithms for polynomials in Bernstein form*, 1988 (products).
@@ -245,6 +245,31 @@ pub fn convolve_square(f: &[f64], degree: Bidegree, sign: f64, out: &mut [f64]) 
                     *o += x * y;
                 }
             }
+        }
+    }
+}
+
+/// As [`cut`] in both directions.
+pub fn cut_2d(coefficients: &mut [f64], degree: Bidegree, s: [f64; 2], t: [f64; 2]) {
+    let width = degree.t + 1;
+    cut(coefficients, degree.s, width, width, s[0], s[1]);
+    for row in coefficients.chunks_exact_mut(width) {
+        cut(row, degree.t, 1, 1, t[0], t[1]);
+    }
+}
+
+/// Coefficients of the isocurve at `x` of s (when `across_s`) or of t; `work` holds the array and is used up.
+pub fn isocurve(work: &mut [f64], degree: Bidegree, across_s: bool, x: f64, out: &mut [f64]) {
+    let width = degree.t + 1;
+    let end = if x > 0.0 { x } else { 1.0 };
+    if across_s {
+        cut(work, degree.s, width, width, 0.0, end);
+        let row = if x > 0.0 { degree.s } else { 0 };
+        out.copy_from_slice(&work[row * width..(row + 1) * width]);
+    } else {
+        for (row, coefficient) in work.chunks_exact_mut(width).zip(out) {
+            cut(row, degree.t, 1, 1, 0.0, end);
+            *coefficient = row[if x > 0.0 { degree.t } else { 0 }];
         }
     }
 }

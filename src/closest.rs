@@ -144,6 +144,7 @@ pub use crate::refine::Trace;
 pub struct Workspace {
     queue: Queue,
     deferred: Vec<(f64, usize)>,
+    start: Vec<f64>,
     line: line::LineMemory,
     patch: patch::PatchMemory,
 }

@@ -39,7 +39,7 @@ impl IndexedCurve {
         let Ok(index) = self.index(&mut || false) else { return FootPoint::unreached() };
         let hint = hint.filter(|u| u.is_finite());
         match options.scope {
-            Scope::Local => self.local(index, query, hint, options, trace),
+            Scope::Local => self.local(index, query, hint, options, workspace, trace),
             Scope::Global => self.global(index, query, hint, options, workspace, trace),
         }
     }
@@ -80,9 +80,11 @@ impl IndexedCurve {
         query: Vector,
         hint: Option<f64>,
         options: &QueryOptions,
+        workspace: &mut Workspace,
         trace: Option<Trace>,
     ) -> FootPoint {
-        let start = hint.unwrap_or_else(|| curve_start(index, index.frame.enter(query)));
+        let start = hint
+            .unwrap_or_else(|| curve_start(index, index.frame.enter(query), &mut workspace.start));
         let curve = WholeCurve { curve: self.curve(), query };
         let (u, _, taken) =
             foot_on_curve(&curve, start, self.range(options), options.method, trace);

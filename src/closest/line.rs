@@ -341,7 +341,7 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         n * (n - 1.0) * (least - 4.0 * interval.error * weight)
     }
 
-    /// `h >= h(s) - g^2 / (2 m)` on the interval; see [`first_order_loss`].
+    /// `h >= h(s) - g^2 / (2 m)` on the interval; with `g` the slope that can lower h and `m` the curvature.
     fn first_order(&self, interval: &Interval, s: f64, jet: &Jet1, m: f64) -> bool {
         let position = self.line.position;
         let value = value_at(norm(jet.d), jet.w[0], position, self.proof);

@@ -5,7 +5,7 @@
 //! one with the nearest box is taken, and of its corners the nearest.
 
 use super::flag;
-use crate::bezier::cut;
+use crate::bezier::{cut, cut_2d};
 use crate::bounds::{Aabb, Vector, norm, sub};
 use crate::curve::Curve;
 use crate::index::{CurveIndex, SurfaceIndex};
@@ -13,8 +13,8 @@ use crate::jet::{Jet1, Jet2};
 use crate::refine::{CurveJets, SurfaceJets};
 use crate::surface::Surface;
 
-/// Subdivision levels of the published start.
-const LEVELS: u32 = 3;
+/// Parts of a piece in either direction: three levels of subdivision.
+const PARTS: u32 = 8;
 
 /// A curve as the local iteration sees it, in the caller's coordinates.
 pub struct WholeCurve<'a> {
@@ -73,20 +73,20 @@ fn hull(net: &[f64], count: usize, rational: bool) -> Aabb {
     aabb
 }
 
-/// The published start on a curve; `query` in the index's coordinates.
-pub fn curve_start(index: &CurveIndex, query: Vector) -> f64 {
+/// The published start on a curve; `query` in the index's coordinates, `net` is scratch.
+pub fn curve_start(index: &CurveIndex, query: Vector, net: &mut Vec<f64>) -> f64 {
     let mut best = (f64::INFINITY, 0.0);
     for (k, segment) in index.segments.iter().enumerate() {
         let view = index.net(k);
         let p = sub(query, segment.center);
-        let parts = 1 << LEVELS;
-        for part in 0..parts {
-            let range = [part, part + 1].map(|x| f64::from(x) / f64::from(parts));
-            let mut net = view.poles.to_vec();
+        for part in 0..PARTS {
+            let range = part_range(part);
+            net.clear();
+            net.extend_from_slice(view.poles);
             for component in net.chunks_exact_mut(view.degree + 1) {
                 cut(component, view.degree, 1, 1, range[0], range[1]);
             }
-            let away = distance_to(&hull(&net, view.degree + 1, view.rational), p);
+            let away = distance_to(&hull(net, view.degree + 1, view.rational), p);
             if away < best.0 {
                 let nearest = range.map(|s| norm(view.jet(s, p).d));
                 let s = if nearest[0] <= nearest[1] { range[0] } else { range[1] };
@@ -97,48 +97,46 @@ pub fn curve_start(index: &CurveIndex, query: Vector) -> f64 {
     best.1
 }
 
-/// The published start on a surface; `query` in the index's coordinates.
-pub fn surface_start(index: &SurfaceIndex, query: Vector) -> [f64; 2] {
-    let mut order: Vec<(f64, usize)> = Vec::with_capacity(index.patches.len());
-    for (k, patch) in index.patches.iter().enumerate() {
+/// The published start on a surface; `query` in the index's coordinates, `net` is scratch.
+pub fn surface_start(index: &SurfaceIndex, query: Vector, net: &mut Vec<f64>) -> [f64; 2] {
+    let mut best = (f64::INFINITY, [0.0; 2]);
+    for k in 0..index.patches.len() {
         let view = index.net(k);
         let aabb = hull(view.poles, view.degree.count(), view.rational);
-        order.push((distance_to(&aabb, sub(query, patch.center)), k));
-    }
-    order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let mut best = (f64::INFINITY, [0.0; 2]);
-    for (away, k) in order {
-        if away >= best.0 {
-            break;
+        if distance_to(&aabb, sub(query, index.patches[k].center)) < best.0 {
+            patch_start(index, k, query, net, &mut best);
         }
-        patch_start(index, k, query, &mut best);
     }
     best.1
 }
 
-fn patch_start(index: &SurfaceIndex, k: usize, query: Vector, best: &mut (f64, [f64; 2])) {
+fn part_range(part: u32) -> [f64; 2] {
+    [part, part + 1].map(|x| f64::from(x) / f64::from(PARTS))
+}
+
+fn patch_start(
+    index: &SurfaceIndex,
+    k: usize,
+    query: Vector,
+    net: &mut Vec<f64>,
+    best: &mut (f64, [f64; 2]),
+) {
     let (view, patch) = (index.net(k), &index.patches[k]);
     let p = sub(query, patch.center);
-    let parts = 1u32 << LEVELS;
-    let width = view.degree.t + 1;
-    let range = |part: u32| [part, part + 1].map(|x| f64::from(x) / f64::from(parts));
-    for (i, j) in (0..parts * parts).map(|n| (n / parts, n % parts)) {
-        let (s, t) = (range(i), range(j));
-        let mut net = view.poles.to_vec();
+    for part in 0..PARTS * PARTS {
+        let (s, t) = (part_range(part / PARTS), part_range(part % PARTS));
+        net.clear();
+        net.extend_from_slice(view.poles);
         for component in net.chunks_exact_mut(view.degree.count()) {
-            cut(component, view.degree.s, width, width, s[0], s[1]);
-            for row in component.chunks_exact_mut(width) {
-                cut(row, view.degree.t, 1, 1, t[0], t[1]);
-            }
+            cut_2d(component, view.degree, s, t);
         }
-        let away = distance_to(&hull(&net, view.degree.count(), view.rational), p);
+        let away = distance_to(&hull(net, view.degree.count(), view.rational), p);
         if away < best.0 {
             let corners = [[s[0], t[0]], [s[0], t[1]], [s[1], t[0]], [s[1], t[1]]];
             let apart = |at: &[f64; 2]| norm(view.jet(at[0], at[1], p).d);
             let nearest = corners.into_iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
             let [s, t] = nearest.unwrap_or([s[0], t[0]]);
-            let at = [patch.u.global(s), patch.v.global(t)];
-            *best = (away, at);
+            *best = (away, [patch.u.global(s), patch.v.global(t)]);
         }
     }
 }

@@ -12,7 +12,7 @@ use super::collapsed::{along, rational_slope_extent, slope_extent};
 use super::differences::{Slopes, convexity};
 use super::line::{Given, Line, LineMemory, search_line};
 use super::proof::{Proof, Site};
-use crate::bezier::{Bidegree, cut, halve_s, halve_t};
+use crate::bezier::{Bidegree, cut_2d, halve_s, halve_t, isocurve};
 use crate::bounds::{HALF_ULP, Vector, dot, extent, least, norm};
 use crate::index::{Patch, product_steps, side};
 use crate::jet::{BezierPatch, BezierSegment, Jet2};
@@ -400,20 +400,7 @@ impl Walk<'_, '_, '_> {
         {
             let work = &mut self.memory.net[..rows * columns];
             work.copy_from_slice(component);
-            if across_s {
-                if x > 0.0 && x < 1.0 {
-                    cut(work, degree.s, columns, columns, 0.0, x);
-                }
-                let row = if x == 0.0 { 0 } else { degree.s };
-                edge.copy_from_slice(&work[row * columns..(row + 1) * columns]);
-            } else {
-                for (row, e) in work.chunks_exact_mut(columns).zip(edge) {
-                    if x > 0.0 && x < 1.0 {
-                        cut(row, degree.t, 1, 1, 0.0, x);
-                    }
-                    *e = row[if x == 0.0 { 0 } else { degree.t }];
-                }
-            }
+            isocurve(work, degree, across_s, x, edge);
         }
         size - 1
     }
@@ -547,7 +534,7 @@ impl Walk<'_, '_, '_> {
             let w = &mut self.memory.weights;
             w.clear();
             w.extend_from_slice(&self.sheet.net.poles[3 * net.count()..]);
-            cut_area(w, net, area);
+            cut_2d(w, net, area.s, area.t);
             let n = &self.memory.coefficients[at * self.slot..at * self.slot + self.count];
             let found = rational_slope_extent(n, w, net, k, &mut memory);
             let size = product_steps(2 * net.count()) * area.radius * area.radius;
@@ -568,7 +555,7 @@ impl Walk<'_, '_, '_> {
         net[..components * count].copy_from_slice(self.sheet.net.poles);
         net[components * count..].fill(1.0);
         for component in net[..components * count].chunks_exact_mut(count) {
-            cut_area(component, degree, area);
+            cut_2d(component, degree, area.s, area.t);
         }
         let radius = subtract_query(net, count, self.sheet.query);
         if self.proof.best.is_finite()
@@ -606,15 +593,5 @@ impl Walk<'_, '_, '_> {
             pair.swap(0, 1);
         }
         self.memory.waiting.extend(pair);
-    }
-}
-
-fn cut_area(component: &mut [f64], degree: Bidegree, area: &Area) {
-    let width = degree.t + 1;
-    cut(component, degree.s, width, width, area.s[0], area.s[1]);
-    if area.t != [0.0, 1.0] {
-        for row in component.chunks_exact_mut(width) {
-            cut(row, degree.t, 1, 1, area.t[0], area.t[1]);
-        }
     }
 }

@@ -46,7 +46,7 @@ impl IndexedSurface {
         let Ok(index) = self.index(&mut || false) else { return FootPoint::unreached() };
         let hint = hint.filter(|at| at.iter().all(|x| x.is_finite()));
         match options.scope {
-            Scope::Local => self.local(index, query, hint, options, trace),
+            Scope::Local => self.local(index, query, hint, options, workspace, trace),
             Scope::Global => self.global(index, query, hint, options, workspace, trace),
         }
     }
@@ -91,9 +91,12 @@ impl IndexedSurface {
         query: Vector,
         hint: Option<[f64; 2]>,
         options: &QueryOptions,
+        workspace: &mut Workspace,
         trace: Option<Trace>,
     ) -> FootPoint {
-        let start = hint.unwrap_or_else(|| surface_start(index, index.frame.enter(query)));
+        let start = hint.unwrap_or_else(|| {
+            surface_start(index, index.frame.enter(query), &mut workspace.start)
+        });
         let surface = WholeSurface { surface: self.surface(), query };
         let (at, _, taken) =
             foot_on_surface(&surface, start, self.range(options), options.method, trace);

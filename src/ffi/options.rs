@@ -25,7 +25,7 @@ pub enum fpt_method {
     FPT_METHOD_MAF = 1,
     /// Newton's method for the stationary point of the squared distance.
     FPT_METHOD_NEWTON = 2,
-    /// A second-order step on the osculating circle or paraboloid.
+    /// A second-order step along the osculating circle, on surfaces along those of both principal directions.
     FPT_METHOD_OSCULATING = 3,
 }
 
@@ -74,7 +74,8 @@ pub struct fpt_query_options {
     pub threads: u32,
     /// Must be 0.
     pub reserved: u32,
-    /// Nodes and subdivisions per query; 0: the default. A query that runs out has FPT_FOOT_BUDGET.
+    /// Nodes and subdivisions per query; 0: the default, 150 to 2,500 by degree. A query that runs out has
+    /// FPT_FOOT_BUDGET.
     pub budget: u64,
     /// Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED. NULL: never.
     pub should_stop: Option<unsafe extern "C" fn(user: *mut c_void) -> c_int>,

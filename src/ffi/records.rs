@@ -32,7 +32,8 @@ pub struct fpt_foot_point {
 /// The bits of fpt_foot_point.flags.
 #[repr(C)]
 pub enum fpt_foot_flag {
-    /// distance - lower_bound is more than the accuracy and the rounding floor of this shape and query.
+    /// distance - lower_bound is more than the accuracy and the rounding floor of this shape and query; the grain of
+    /// the parameters (at most 1e-9 of the box diagonal) counts as rounding too.
     FPT_FOOT_NOT_PROVEN = 1,
     /// One parameter is bit-equal to an end of the domain; on a curve: the foot is an end.
     FPT_FOOT_EDGE = 2,
@@ -42,16 +43,16 @@ pub enum fpt_foot_flag {
     FPT_FOOT_SEAM = 8,
     /// The foot lies on an edge that is a single point.
     FPT_FOOT_COLLAPSED = 16,
-    /// Another foot is within the accuracy of the least distance.
+    /// Another foot is within the accuracy of the least distance. Set when one was met; its absence proves nothing.
     FPT_FOOT_TIE = 32,
-    /// A whole arc or region is equally near.
+    /// A whole arc or region is equally near. Set when it was met; its absence proves nothing.
     FPT_FOOT_CONTINUUM = 64,
     /// invert: lower_bound is more than the tolerance. With FPT_FOOT_NOT_PROVEN as well the distance is
     /// more than the tolerance but the bound is not.
     FPT_FOOT_NOT_ON_SHAPE = 128,
     /// The query point has a NaN, an infinity or a coordinate beyond 1e100.
     FPT_FOOT_BAD_QUERY = 256,
-    /// The answer was reached from the hint.
+    /// A hint was given and the search began there.
     FPT_FOOT_HINT_USED = 512,
     /// The budget ran out before the proof was complete.
     FPT_FOOT_BUDGET = 1024,

@@ -102,38 +102,45 @@ impl Span {
 
     /// The local parameter of the caller's one, moved into [0, 1].
     pub fn local(&self, u: f64) -> f64 {
-        self.shifted(u, 0.0)
+        self.local_and_rest(u)[0]
     }
 
-    /// The local parameter of `u` moved by `margin` (a share of the piece).
-    ///
-    /// Both the distance to the start and that to the end are formed, so that neither end loses digits to the other
-    /// under a strong balance.
-    fn shifted(&self, u: f64, margin: f64) -> f64 {
+    /// The local parameter x and 1 - x, both to a few half ulps of themselves: each is formed from the distance to its
+    /// own end, so that neither loses digits to the other under a strong balance.
+    fn local_and_rest(&self, u: f64) -> [f64; 2] {
         let [u0, u1] = self.ends;
-        let s = (u - u0) / (u1 - u0) + margin;
-        let r = (u1 - u) / (u1 - u0) - margin;
-        if s <= 0.0 {
-            return 0.0;
+        if u <= u0 {
+            return [0.0, 1.0];
         }
-        if r <= 0.0 {
-            return 1.0;
+        if u >= u1 {
+            return [1.0, 0.0];
         }
-        if self.balance == 1.0 { s } else { s / (self.balance * r + s) }
+        let (s, r) = ((u - u0) / (u1 - u0), (u1 - u) / (u1 - u0));
+        if self.balance == 1.0 {
+            return [s, r];
+        }
+        let sum = self.balance * r + s;
+        [s / sum, self.balance * r / sum]
     }
 }
 
 impl Span {
-    /// The least local interval that holds the part of `[low, high]` inside the piece, rounding included: four ulps
-    /// of the piece before the balance, and four after it. Empty (`[x, x]`) when nothing is inside.
+    /// The least local interval that holds the part of `[low, high]` inside the piece, rounding included. Empty
+    /// (`[x, x]`) when nothing is inside.
+    ///
+    /// Six roundings of relative size 2^-53 lie on the way to x and to 1 - x; eight are allowed, outward.
     pub fn cover(&self, [low, high]: [f64; 2]) -> [f64; 2] {
         if high <= self.ends[0] || low >= self.ends[1] {
             return [self.local(low); 2];
         }
         let margin = 8.0 * HALF_ULP;
-        let low = self.shifted(low, -margin);
-        let high = self.shifted(high, margin);
-        [(low * (1.0 - margin) - margin).max(0.0), (high * (1.0 + margin) + margin).min(1.0)]
+        // The nearer end decides: below one half x itself is the sharper number, above it its rest.
+        let moved = |[x, rest]: [f64; 2], outward: f64| {
+            if x < 0.5 { x * (1.0 + outward) } else { 1.0 - rest * (1.0 - outward) }
+        };
+        let least = moved(self.local_and_rest(low), -margin);
+        let most = moved(self.local_and_rest(high), margin);
+        [least.next_down().max(0.0), most.next_up().min(1.0)]
     }
 }
 
