@@ -92,3 +92,35 @@ fn a_hint_that_is_no_number_is_no_hint() {
     let foot = ask_curve(&circle(), [0.9, 0.9, 0.], Some(f64::NAN), &options);
     assert!(foot.u.is_finite() && foot.flags & flag::HINT_USED == 0);
 }
+
+#[test]
+fn an_area_narrower_than_the_grain_of_doubles_leaves_no_hole() {
+    const W: f64 = 5.37115158004024e-9;
+    const THIRD: f64 = 1.0 / 3.0;
+    const TWO_THIRDS: f64 = 2.0 / 3.0;
+    let poles = [
+        [0., 0., 0.2],
+        [0., THIRD, 0.1],
+        [0., TWO_THIRDS, 0.1],
+        [0., 1., 0.30000000000000004],
+        [0.019328801775016148, 0., 0.30000000000000004],
+        [0.32768509073257646, THIRD, 0.1],
+        [0.0030082055051630086, TWO_THIRDS, 0.30000000000000004],
+        [0.013366822334246218, 1., 0.2],
+        [1.040308199767788, 0., 0.],
+        [0.07866619601542378, THIRD, 0.30000000000000004],
+        [0.007769385057732419, TWO_THIRDS, 0.],
+        [0.002339676575999944, 1., 0.1],
+    ];
+    let weights = [1., 1., 1., W, 1., 1., 1., W, W, 1., 1., 1.];
+    let knots_u = [0., 0., 0., 1., 1., 1.];
+    let knots_v = [-1., -1., -1., -1., 0., 0., 0., 0.];
+    let surface = Surface::new(&knots_u, &knots_v, 2, 3, &poles, 3, 4, Some(&weights)).unwrap();
+    let surface = IndexedSurface::new(surface);
+    let query = [6.050804107674703e-14, 0.8409991172122336, 0.20459947048343183];
+    let options = QueryOptions::default();
+    let foot = surface.closest(query, None, &options, &mut Workspace::default(), None);
+    let there = surface.surface().evaluate(3.5904941586478654e-12, -1.6329295639550141e-9);
+    let distance = (0..3).map(|k| (there[k] - query[k]).powi(2)).sum::<f64>().sqrt();
+    assert!(foot.lower_bound <= distance + 1e-15, "{foot:?} {distance:e}");
+}

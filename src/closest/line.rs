@@ -396,6 +396,12 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         let growth = 2.0 * HALF_ULP * (self.count - 1) as f64 * interval.radius * interval.radius;
         let child = Interval { error: interval.error + growth, age: interval.age + 1, ..interval };
         let mut pair = [Interval { high: middle, ..child }, Interval { low: middle, ..child }];
+        // Inside a restriction the middle may be rounded; then the halves are not those of the coefficients.
+        if middle - interval.low != interval.high - middle {
+            for part in &mut pair {
+                (part.error, part.age) = (f64::INFINITY, FRESH);
+            }
+        }
         if self.least_ratio(at).0 < self.least_ratio(at + 1).0 {
             // The more promising half goes on top.
             let (low, high) = self.memory.coefficients[at * self.slot..(at + 2) * self.slot]

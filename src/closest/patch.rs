@@ -278,8 +278,8 @@ impl Walk<'_, '_, '_> {
                 return Verdict::Closed;
             }
         }
-        let wide = (area.s[1] - area.s[0]).max(area.t[1] - area.t[0]) >= LEAST_WIDTH;
-        if !self.proof.spend() || !wide {
+        let can = [area.s, area.t].map(|[a, b]| b - a >= LEAST_WIDTH);
+        if !self.proof.spend() || can == [false; 2] {
             return Verdict::GiveUp;
         }
         let (mut bound, mut place) = self.least_ratio(at);
@@ -303,7 +303,8 @@ impl Walk<'_, '_, '_> {
         }
         self.probe(area, place);
         let [along_s, along_t] = slopes.steepest(self.degree);
-        if along_s >= along_t { Verdict::HalveS } else { Verdict::HalveT }
+        // A direction narrower than the grain of doubles cannot be halved: its middle would be one of its ends.
+        if can[0] && (along_s >= along_t || !can[1]) { Verdict::HalveS } else { Verdict::HalveT }
     }
 
     /// Coefficients of `N - mu C` into half `part` of the scratch memory.
@@ -578,12 +579,14 @@ impl Walk<'_, '_, '_> {
         let growth = 2.0 * HALF_ULP * n as f64 * area.radius * area.radius;
         let child = Area { error: area.error + growth, age: area.age + 1, ..area };
         let mut pair = [child; 2];
-        if direction == 0 {
-            let middle = 0.5 * (area.s[0] + area.s[1]);
-            (pair[0].s[1], pair[1].s[0]) = (middle, middle);
-        } else {
-            let middle = 0.5 * (area.t[0] + area.t[1]);
-            (pair[0].t[1], pair[1].t[0]) = (middle, middle);
+        let [a, b] = if direction == 0 { area.s } else { area.t };
+        let middle = 0.5 * (a + b);
+        for (part, ends) in pair.iter_mut().zip([[a, middle], [middle, b]]) {
+            *(if direction == 0 { &mut part.s } else { &mut part.t }) = ends;
+            // Inside a restriction the middle may be rounded; then the halves are not those of the coefficients.
+            if middle - a != b - middle {
+                (part.error, part.age) = (f64::INFINITY, FRESH);
+            }
         }
         if self.least_ratio(at).0 < self.least_ratio(at + 1).0 {
             // The more promising half goes on top.

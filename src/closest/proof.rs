@@ -122,10 +122,10 @@ impl<'t> Proof<'t> {
         reach * reach
     }
 
-    /// Forgets what was given up, for another walk with the same best foot.
+    /// Forgets what was given up, for another walk with the same best foot and half the budget.
     pub fn restart(&mut self) {
         self.lower = f64::INFINITY;
-        self.spent = 0;
+        self.spent = self.budget / 2;
         self.exhausted = false;
     }
 

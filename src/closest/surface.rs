@@ -150,7 +150,8 @@ impl IndexedSurface {
         if foot.flags & flag::NOT_PROVEN != 0 {
             self.settle_grain(index, query, &search, &mut foot, &proof, allowed);
         }
-        if proof.flat.is_some_and(|v| search.is_continuum(site, v, &proof)) {
+        let flat = proof.flat.or_else(|| search.flat_at_border(site));
+        if flat.is_some_and(|v| search.is_continuum(site, v, &proof)) {
             foot.flags |= flag::CONTINUUM | flag::TIE;
         }
         if hint.is_some() {
@@ -326,6 +327,14 @@ impl SurfaceSearch<'_> {
             patch.u.global(site.at[0]).clamp(self.range[0], self.range[1]),
             patch.v.global(site.at[1]).clamp(self.range[2], self.range[3]),
         ]
+    }
+
+    /// The flat direction of a foot on a side of its patch, where it was found in one parameter only.
+    fn flat_at_border(&self, site: Site) -> Option<[f64; 2]> {
+        let [s, t] = site.at;
+        let on_side = s == 0.0 || s == 1.0 || t == 0.0 || t == 1.0;
+        let p = sub(self.query, self.index.patches[site.piece].center);
+        on_side.then(|| self.index.net(site.piece).jet(s, t, p).flat_direction()).flatten()
     }
 
     /// Whether there is a foot within the window wherever the iteration starts along the flat direction `v`.
