@@ -112,6 +112,10 @@ pub struct Family {
     pub sizes: f64,
     /// Distance from the origin.
     pub offset: f64,
+    /// Share of poles that are copies of their neighbours: collapsed edges, vanishing derivatives.
+    pub copies: f64,
+    /// All poles in a plane, so that most queries in it have distance zero or a foot on a fold.
+    pub is_flat: bool,
 }
 
 const PLAIN: Family = Family {
@@ -121,9 +125,11 @@ const PLAIN: Family = Family {
     weights: 0.0,
     sizes: 0.0,
     offset: 0.0,
+    copies: 0.0,
+    is_flat: false,
 };
 
-pub const FAMILIES: [Family; 16] = [
+pub const FAMILIES: [Family; 18] = [
     PLAIN,
     Family { name: "rational", weights: 1.0, ..PLAIN },
     Family { name: "weights 1e-3..1e3", weights: 3.0, ..PLAIN },
@@ -140,6 +146,8 @@ pub const FAMILIES: [Family; 16] = [
     Family { name: "offset 1e7..1e8", offset: 1e8, weights: 0.5, ..PLAIN },
     Family { name: "sizes 1e-9..1e9", sizes: 9.0, weights: 0.5, ..PLAIN },
     Family { name: "high degree", degrees: [15, 31], weights: 0.5, ..PLAIN },
+    Family { name: "equal poles", copies: 0.25, weights: 0.5, ..PLAIN },
+    Family { name: "flat", is_flat: true, weights: 0.5, ..PLAIN },
 ];
 
 fn cumulated(start: f64, steps: impl Iterator<Item = f64>) -> Vec<f64> {
@@ -224,9 +232,34 @@ fn net(family: &Family, counts: [usize; 2], own: [usize; 2], r: &mut Random) -> 
         along(along(center, grid, size), noise, if sheet { 0.5 * size } else { size })
     };
     let cells = || (0..counts[0]).flat_map(|i| (0..counts[1]).map(move |j| (i, j)));
+    let mut poles: Vec<Vector> = cells().map(|(i, j)| place(i, j)).collect();
+    if family.copies > 0.0 {
+        copy_some(&mut poles, counts[1], family.copies, r);
+    }
+    if family.is_flat {
+        poles.iter_mut().for_each(|pole| pole[2] = 0.0);
+    }
     Net {
-        poles: cells().map(|(i, j)| place(i, j)).collect(),
+        poles,
         weights: (family.weights > 0.0).then(|| cells().map(|(i, j)| pick(i, j).1).collect()),
+    }
+}
+
+/// Makes some poles equal to the one before them, and sometimes the first or last row one point.
+fn copy_some(poles: &mut [Vector], row: usize, share: f64, r: &mut Random) {
+    for k in 1..poles.len() {
+        if r.unit() < share {
+            poles[k] = poles[k - 1];
+        }
+    }
+    let rows = poles.len() / row;
+    if row > 1 && rows > 2 {
+        for first in [0, (rows - 1) * row] {
+            if r.unit() < 0.4 {
+                let tip = poles[first];
+                poles[first..first + row].fill(tip);
+            }
+        }
     }
 }
 
