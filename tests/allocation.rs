@@ -138,13 +138,14 @@ fn a_query_allocates_nothing_with_a_workspace_that_has_seen_the_shape() {
 }
 
 #[test]
-fn a_local_query_from_a_hint_allocates_nothing() {
+fn a_local_query_allocates_nothing() {
     let local = QueryOptions { scope: Scope::Local, ..QueryOptions::default() };
     for (name, shape) in shapes() {
         let (queries, [u0, u1, v0, v1]) = (queries(&shape, 10), shape.domain());
         let (hint, mut workspace) = ([0.3 * u0 + 0.7 * u1, 0.5 * (v0 + v1)], Workspace::default());
         let mut ask = || {
             for query in &queries {
+                shape.ask_with(*query, None, &local, &mut workspace);
                 shape.ask_with(*query, Some(hint), &local, &mut workspace);
             }
         };

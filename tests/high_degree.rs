@@ -23,12 +23,12 @@ struct Report {
     total: f64,
 }
 
-/// Asks the shape 40 queries, checks them against the search, and adds to the report.
+/// Asks the shape 30 queries, checks them against the search, and adds to the report.
 fn examine(shape: &Shape, r: &mut Random, report: &mut Report) {
     let samples = dense(shape);
     let (options, workspace) = (QueryOptions::default(), &mut Workspace::default());
     shape.ask_with(samples[0].1, None, &options, workspace);
-    for _ in 0..40 {
+    for _ in 0..30 {
         let query = shape.query(r);
         let mut least = f64::INFINITY;
         let mut foot = FootPoint::unreached();
@@ -78,7 +78,7 @@ fn curves_of_degree_15_to_31_are_answered_as_the_independent_search_does() {
     for degree in [15, 18, 22, 25, 28, 31] {
         for (weights, spans) in [(0.0, 1), (0.0, 5), (0.5, 1), (0.5, 4)] {
             let name = format!("curve {degree}, {spans} spans, weights 10^{weights}");
-            is_mostly_proven(&examine_all(&name, 3, |r| {
+            is_mostly_proven(&examine_all(&name, 2, |r| {
                 let family = family(Knotting::Clamped, weights);
                 Shape::Curve(IndexedCurve::new(shapes::curve_of(&family, degree, spans, r)))
             }));
@@ -107,7 +107,7 @@ fn unclamped_and_periodic_curves_are_answered_as_the_independent_search_does() {
         for degree in [1, 2, 3, 5, 9, 15, 25] {
             for weights in [0.0, 0.5] {
                 let name = format!("curve {degree} {knotting:?}, weights 10^{weights}");
-                is_mostly_proven(&examine_all(&name, 3, |r| {
+                is_mostly_proven(&examine_all(&name, 2, |r| {
                     let family = family(knotting, weights);
                     Shape::Curve(IndexedCurve::new(shapes::curve_of(&family, degree, 7, r)))
                 }));
@@ -159,7 +159,7 @@ fn bezier_knots(degree: usize) -> Vec<f64> {
 fn curves_with_as_many_waves_as_their_degree_allows_are_answered_as_the_independent_search_does() {
     for (waves, degree) in [(5, 15), (10, 15), (15, 15), (10, 25), (20, 20), (25, 25), (31, 31)] {
         let name = format!("curve {degree}, {waves} waves");
-        is_mostly_proven(&examine_all(&name, 3, |r| {
+        is_mostly_proven(&examine_all(&name, 2, |r| {
             let height = r.scale(-2.0, 0.0);
             let poles: Vec<Vector> = (wave(waves, degree).iter().enumerate())
                 .map(|(i, y)| [i as f64 / degree as f64, height * y, r.between(0.0, 0.1)])

@@ -4,6 +4,8 @@
 
 mod shapes;
 
+use std::time::Instant;
+
 use footpoint::closest::{FootPoint, QueryOptions, Workspace, flag};
 use shapes::asked::Shape;
 use shapes::search::{Found, dense, search};
@@ -21,8 +23,11 @@ struct Bag {
     wrong: Vec<String>,
     /// A bound that is above the search, or an answer that is farther than it though proven.
     unsound: Vec<String>,
-    open: usize,
+    /// Not proven.
+    open: Vec<String>,
     queries: usize,
+    /// Slowest query in microseconds, least of three tries.
+    slowest: f64,
 }
 
 fn hunt(family: usize, seed: u64, bag: &mut Bag) {
@@ -30,7 +35,16 @@ fn hunt(family: usize, seed: u64, bag: &mut Bag) {
     let (samples, mut workspace) = (dense(&shape), Workspace::default());
     for _ in 0..20 {
         let query = shape.query(r);
-        let foot = shape.ask_with(query, None, &QueryOptions::default(), &mut workspace);
+        let mut ask = || {
+            let start = Instant::now();
+            let foot = shape.ask_with(query, None, &QueryOptions::default(), &mut workspace);
+            (foot, start.elapsed().as_secs_f64() * 1e6)
+        };
+        let (foot, mut time) = ask();
+        if time > bag.slowest {
+            time = time.min(ask().1).min(ask().1);
+        }
+        bag.slowest = bag.slowest.max(time);
         judge(&shape, query, &foot, search(&shape, &samples, query), bag, (family, seed));
     }
 }
@@ -53,7 +67,9 @@ fn judge(
     };
     let is_open = foot.flags & flag::NOT_PROVEN != 0;
     bag.queries += 1;
-    bag.open += usize::from(is_open);
+    if is_open {
+        bag.open.push(text());
+    }
     let is_wrong = foot.distance > found.distance + 1e-9 * shape.diagonal() + slack;
     if foot.lower_bound > found.distance + slack || (is_wrong && !is_open) {
         bag.unsound.push(text());
@@ -84,8 +100,9 @@ fn hunt_all(seeds: std::ops::Range<u64>) -> Vec<Bag> {
             for (all, bag) in total.iter_mut().zip(bags) {
                 all.wrong.extend(bag.wrong);
                 all.unsound.extend(bag.unsound);
-                all.open += bag.open;
+                all.open.extend(bag.open);
                 all.queries += bag.queries;
+                all.slowest = all.slowest.max(bag.slowest);
             }
         }
     });
@@ -96,12 +113,13 @@ fn nothing_is_found(seeds: std::ops::Range<u64>) {
     let bags = hunt_all(seeds);
     let mut found: Vec<&String> = Vec::new();
     for (family, bag) in FAMILIES.iter().zip(&bags) {
-        let (name, open, queries) = (family.name, bag.open, bag.queries);
+        let (name, open, queries) = (family.name, bag.open.len(), bag.queries);
         let [wrong, unsound] = [&bag.wrong, &bag.unsound].map(Vec::len);
         println!(
-            "{name:<24} {queries:6} queries, {open} not proven, {wrong} wrong, {unsound} unsound"
+            "{name:<24} {queries:6} queries, {open} not proven, {wrong} wrong, {unsound} unsound, slowest {:.0} us",
+            bag.slowest
         );
-        bag.wrong.iter().for_each(|text| println!("  {text}"));
+        bag.open.iter().take(6).for_each(|text| println!("  {text}"));
         found.extend(&bag.unsound);
         if !EXTREME.contains(&name) {
             found.extend(&bag.wrong);
