@@ -329,12 +329,23 @@ impl SurfaceSearch<'_> {
         ]
     }
 
-    /// The flat direction of a foot on a side of its patch, where it was found in one parameter only.
+    /// The flat direction of a foot on a side of its patch, where it was found in one parameter only; at a collapsed
+    /// point, where one derivative vanishes, that of the other.
     fn flat_at_border(&self, site: Site) -> Option<[f64; 2]> {
         let [s, t] = site.at;
-        let on_side = s == 0.0 || s == 1.0 || t == 0.0 || t == 1.0;
-        let p = sub(self.query, self.index.patches[site.piece].center);
-        on_side.then(|| self.index.net(site.piece).jet(s, t, p).flat_direction()).flatten()
+        let patch = &self.index.patches[site.piece];
+        if s != 0.0 && s != 1.0 && t != 0.0 && t != 1.0 {
+            return None;
+        }
+        let jet = self.index.net(site.piece).jet(s, t, sub(self.query, patch.center));
+        let on = [s == 0.0, s == 1.0, t == 0.0, t == 1.0];
+        match (0..4).find(|&k| on[k] && patch.collapsed[k]) {
+            Some(k) if jet.along(k / 2).is_flat() => {
+                Some(if k < 2 { [1.0, 0.0] } else { [0.0, 1.0] })
+            }
+            Some(_) => None,
+            None => jet.flat_direction(),
+        }
     }
 
     /// Whether there is a foot within the window wherever the iteration starts along the flat direction `v`.
@@ -350,9 +361,14 @@ impl SurfaceSearch<'_> {
             if !inside {
                 return false;
             }
-            let apart = norm(sub(view.0.jet(start[0], start[1], view.1).d, home));
+            let reach = proof.best + proof.window();
+            let there = view.0.jet(start[0], start[1], view.1).d;
+            if norm(there) <= reach {
+                return true;
+            }
+            // A continuum need not follow the straight line in the parameters.
             let (_, jet, _) = foot_on_surface(&view, start, range, self.options.method, None);
-            norm(jet.d) <= proof.best + proof.window() && norm(sub(jet.d, home)) > 0.5 * apart
+            norm(jet.d) <= reach && norm(sub(jet.d, home)) > 0.5 * norm(sub(there, home))
         };
         proof.best > proof.window()
             && [-1.0, 1.0]
