@@ -20,9 +20,11 @@ use super::curve::LEAST_CREASE;
 /// hold the foot must not use up the budget. One query in a thousand gets here.
 const PATIENCE: u64 = 64;
 
-/// Patches, and starts in either direction of a patch, that are tried when the budget has run out.
-const RESCUE_PATCHES: usize = 8;
-const RESCUE_STARTS: usize = 3;
+/// When the budget has run out: nearest patches sampled and samples in either direction of each (fewer for high
+/// degrees, whose evaluations cost more), and the samples that are iterated from.
+const RESCUE_SAMPLING: (usize, usize) = (200, 3);
+const RESCUE_SAMPLING_HIGH: (usize, usize) = (16, 3);
+const RESCUE_STARTS: usize = 16;
 /// Iterations that continue the best foot then.
 const PERSISTENCE: usize = 10;
 
@@ -123,7 +125,9 @@ impl IndexedSurface {
             options.accuracy(&index.frame).max(rounding_floor(&index.frame, query, worst));
         let coefficients = index.degree.times(index.degree).count();
         let budget = if options.budget > 0 { options.budget } else { default_budget(coefficients) };
-        let search = SurfaceSearch { index, query: q, range: self.range(options), options, steps };
+        let whole = WholeSurface { surface: self.surface(), query };
+        let range = self.range(options);
+        let search = SurfaceSearch { index, whole, query: q, range, options, steps };
         let mut tell = |step: u32, site: Site, d: f64| {
             if let Some(trace) = &mut trace {
                 let [u, v] = search.parameters(site);
@@ -300,6 +304,8 @@ impl SurfaceIndex {
 /// One global search on a surface.
 struct SurfaceSearch<'a> {
     index: &'a SurfaceIndex,
+    /// The surface and the query as the caller has them.
+    whole: WholeSurface<'a>,
     query: Vector,
     range: [f64; 4],
     options: &'a QueryOptions,
@@ -414,39 +420,70 @@ impl SurfaceSearch<'_> {
     fn persist(&self, proof: &mut Proof) {
         for _ in 0..PERSISTENCE {
             let (Some(site), before) = (proof.site, proof.best) else { return };
-            let Some(range) = self.local_range(site.piece) else { return };
-            self.iterate_from(site.piece, site.at, range, Method::Auto, proof);
+            self.roam(site, proof);
             if proof.best == before {
                 return;
             }
         }
     }
 
-    /// Iterates from a grid of starts in the nearest patches.
+    /// Iterates on the whole surface, across the lines between patches.
+    fn roam(&self, start: Site, proof: &mut Proof) {
+        let start = self.parameters(start);
+        let (at, _, taken) = foot_on_surface(&self.whole, start, self.range, Method::Auto, None);
+        proof.evaluations += taken;
+        self.start_at(at, proof);
+    }
+
+    /// Samples the nearest patches and iterates from the best samples.
     fn rescue(&self, workspace: &mut Workspace, proof: &mut Proof) {
         self.persist(proof);
+        let mut starts = [(f64::INFINITY, Site { piece: 0, at: [0.0; 2] }); RESCUE_STARTS];
+        let small = self.index.degree.count() <= 36;
+        let (patches, samples) = if small { RESCUE_SAMPLING } else { RESCUE_SAMPLING_HIGH };
         let slack = tree_slack(self.query);
         self.index.tree.start(&mut workspace.queue);
-        let mut pieces = 0;
+        let mut sampled = 0;
         while let Some(next) = workspace.queue.pop() {
             let limit = tree_limit(proof, slack);
-            if next.key > limit || pieces == RESCUE_PATCHES {
+            if next.key > limit || sampled == patches {
                 break;
             }
-            let Some(k) = next.piece() else {
-                self.index.tree.open(next, self.query, limit, &mut workspace.queue);
-                continue;
-            };
-            let Some([s0, s1, t0, t1]) = self.local_range(k) else { continue };
-            pieces += 1;
-            for start in 0..RESCUE_STARTS * RESCUE_STARTS {
-                let share = |i: usize| (i as f64 + 0.5) / RESCUE_STARTS as f64;
-                let (i, j) = (start / RESCUE_STARTS, start % RESCUE_STARTS);
-                let at = [s0 + share(i) * (s1 - s0), t0 + share(j) * (t1 - t0)];
-                self.iterate_from(k, at, [s0, s1, t0, t1], Method::Auto, proof);
+            match next.piece() {
+                None => self.index.tree.open(next, self.query, limit, &mut workspace.queue),
+                Some(k) => {
+                    self.sample(k, samples, &mut starts, proof);
+                    sampled += 1;
+                }
             }
         }
+        for (_, site) in starts.into_iter().filter(|start| start.0.is_finite()) {
+            self.roam(site, proof);
+        }
         self.persist(proof);
+    }
+
+    /// Keeps the best of a grid of samples of patch `k` in `starts`, nearest first.
+    fn sample(
+        &self,
+        k: usize,
+        samples: usize,
+        starts: &mut [(f64, Site); RESCUE_STARTS],
+        proof: &mut Proof,
+    ) {
+        let Some([s0, s1, t0, t1]) = self.local_range(k) else { return };
+        let p = sub(self.query, self.index.patches[k].center);
+        let share = |i: usize| (i as f64 + 0.5) / samples as f64;
+        for (i, j) in (0..samples * samples).map(|n| (n / samples, n % samples)) {
+            let at = [s0 + share(i) * (s1 - s0), t0 + share(j) * (t1 - t0)];
+            let d = norm(self.index.net(k).jet(at[0], at[1], p).d);
+            proof.evaluations += 1;
+            let place = starts.partition_point(|start| start.0 <= d);
+            if place < RESCUE_STARTS {
+                starts[place..].rotate_right(1);
+                starts[place] = (d, Site { piece: k, at });
+            }
+        }
     }
 
     /// Goes on in the neighbours when the best foot lies on the line between two patches: the search leaves out what
