@@ -22,9 +22,9 @@ const PATIENCE: u64 = 64;
 
 /// When the budget has run out: nearest patches sampled and samples in either direction of each (fewer for high
 /// degrees, whose evaluations cost more), and the samples that are iterated from.
-const RESCUE_SAMPLING: (usize, usize) = (200, 3);
+const RESCUE_SAMPLING: (usize, usize) = (200, 6);
 const RESCUE_SAMPLING_HIGH: (usize, usize) = (16, 3);
-const RESCUE_STARTS: usize = 16;
+const RESCUE_STARTS: usize = 24;
 /// Iterations that continue the best foot then.
 const PERSISTENCE: usize = 10;
 
