@@ -124,3 +124,31 @@ fn an_area_narrower_than_the_grain_of_doubles_leaves_no_hole() {
     let distance = (0..3).map(|k| (there[k] - query[k]).powi(2)).sum::<f64>().sqrt();
     assert!(foot.lower_bound <= distance + 1e-15, "{foot:?} {distance:e}");
 }
+
+#[test]
+fn a_restriction_that_ends_near_a_light_pole_is_searched_to_its_end() {
+    let (a, b, u1) = (-4.28545346334217, -0.03834660951384494, -0.03834661025701687);
+    let poles: Vec<[f64; 3]> =
+        (0..5).map(|i| [f64::from(i) / 4.0, 0.1 * f64::from(i * i), 0.]).collect();
+    let weights = [1., 1., 1., 1., 5.5533222926328775e-9];
+    let knots = [[a; 5], [b; 5]].concat();
+    let curve = IndexedCurve::new(Curve::new(&knots, 4, &poles, Some(&weights)).unwrap());
+    let query = [1.2, 2.0, 0.1];
+    let foot = ask_curve(&curve, query, None, &within([a + 0.3 * (b - a), u1, 0., 0.]));
+    let end = curve.curve().evaluate(u1);
+    let distance = (0..3).map(|k| (end[k] - query[k]).powi(2)).sum::<f64>().sqrt();
+    assert!(foot.lower_bound <= distance + 1e-15, "{foot:?} {distance}");
+}
+
+#[test]
+fn feet_at_one_distance_on_two_sides_of_a_corner_are_a_tie() {
+    let poles = [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.], [0., 0., 0.]];
+    let knots = [0., 0., 1., 2., 3., 4., 4.];
+    let square = IndexedCurve::new(Curve::new(&knots, 1, &poles, None).unwrap());
+    for query in [[0.5, 0.5, 0.], [0.3, 0.3, 0.]] {
+        let foot = ask_curve(&square, query, None, &QueryOptions::default());
+        assert_ne!(foot.flags & flag::TIE, 0, "{foot:?}");
+    }
+    let foot = ask_curve(&square, [0.5, 0.4, 0.], None, &QueryOptions::default());
+    assert_eq!(foot.flags & flag::TIE, 0, "{foot:?}");
+}

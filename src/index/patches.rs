@@ -125,6 +125,7 @@ impl SurfaceIndex {
         let mut boxes = reserved(count)?;
         let exact = |k: usize| surface.collapsed_spread(k) <= MOST_SPREAD * index.frame.diagonal;
         let edges = [0, 1, 2, 3].map(|k| index.collapsed[k] && exact(k));
+        let points = collapsed_points(surface, edges).map(|point| index.frame.enter(point));
         for k in 0..count {
             if k % 256 == 255 && poll() {
                 return Err(Error::Cancelled);
@@ -132,7 +133,7 @@ impl SurfaceIndex {
             let (a, b) = (k / columns, k % columns);
             let at_side = [a == 0, a + 1 == rows, b == 0, b + 1 == columns];
             let collapsed = [0, 1, 2, 3].map(|k| at_side[k] && edges[k]);
-            boxes.push(index.push_patch(surface, (&u, a), (&v, b), collapsed));
+            boxes.push(index.push_patch(surface, (&u, a), (&v, b), (collapsed, &points)));
             if keep_tensors {
                 let net = &index.nets[k * width..];
                 push_tensors(net, degree, rational, &mut index.tensors);
@@ -147,7 +148,7 @@ impl SurfaceIndex {
         surface: &Surface,
         (u, a): (&Direction, usize),
         (v, b): (&Direction, usize),
-        collapsed: [bool; 4],
+        (collapsed, points): ([bool; 4], &[Vector; 4]),
     ) -> Aabb {
         let net = self.local_net(surface, u.spans[a].0, v.spans[b].0);
         let start = self.nets.len();
@@ -167,7 +168,7 @@ impl SurfaceIndex {
             collapsed,
             spread: 0.0,
         };
-        self.make_collapsed_exact(surface, &mut patch, start);
+        self.make_collapsed_exact(points, &mut patch, start);
         let mut aabb = Aabb::EMPTY;
         self.visit_poles(start, |_, _, pole, _| aabb.include(add(net.center, pole)));
         let margin = position_steps(self.degree.s + self.degree.t) * net.radius + 8.0 * HALF_ULP;
@@ -229,13 +230,10 @@ impl SurfaceIndex {
         }
     }
 
-    /// Moves the poles of collapsed sides onto one point, the surface's own corner there, and records how far.
-    fn make_collapsed_exact(&mut self, surface: &Surface, patch: &mut Patch, start: usize) {
-        let [u0, u1, v0, v1] = surface.domain();
-        let corner = [(u0, v0), (u1, v0), (u0, v0), (u0, v1)];
+    /// Moves the poles of collapsed sides onto their points, and records how far.
+    fn make_collapsed_exact(&mut self, points: &[Vector; 4], patch: &mut Patch, start: usize) {
         for k in (0..4).filter(|&k| patch.collapsed[k]) {
-            let (u, v) = corner[k];
-            let point = sub(self.frame.enter(surface.evaluate(u, v)), patch.center);
+            let point = sub(points[k], patch.center);
             let (last_i, last_j) = (self.degree.s, self.degree.t);
             let (mut moves, mut move_) = (Vec::new(), 0.0f64);
             self.visit_poles(start, |i, j, pole, weight| {
@@ -244,7 +242,7 @@ impl SurfaceIndex {
                     move_ = move_.max(norm(sub(pole, point)));
                 }
             });
-            // The poles themselves are rounded, and so is the point; a corner may move once for each of its sides.
+            // The poles themselves are rounded, and so is the point.
             patch.spread += move_ + 2.0 * position_steps(last_i + last_j) * patch.radius;
             for (at, weight) in moves {
                 for c in 0..3 {
@@ -279,6 +277,16 @@ impl SurfaceIndex {
 fn border(knots: &Knots, ends: [f64; 2]) -> [bool; 2] {
     let (first, last) = knots.domain();
     ends.map(|u| u == first || u == last || knots.multiplicity(u) >= knots.degree())
+}
+
+/// The points onto which collapsed edges are moved: a corner of the surface on each. Edges that meet share theirs.
+fn collapsed_points(surface: &Surface, edges: [bool; 4]) -> [Vector; 4] {
+    let [u0, u1, v0, v1] = surface.domain();
+    let corner = [(u0, v0), (u1, v0), (u0, v0), (u0, v1)].map(|(u, v)| surface.evaluate(u, v));
+    let linked = edges[0] && (edges[2] || edges[3]);
+    let first = if edges[0] { Some(0) } else { edges[1].then_some(1) };
+    let of_v = |k: usize| corner[first.unwrap_or(k)];
+    [corner[0], corner[if linked { 0 } else { 1 }], of_v(2), of_v(3)]
 }
 
 /// Into how many parts the spans of u and v are cut: by the weights' growth along each direction.
