@@ -231,7 +231,8 @@ const fn number(digits: &str) -> u32 {
     value
 }
 
-/// Panics on purpose inside the fence, in a batch of eight records on `threads` threads.
+/// Panics on purpose inside the fence, in one record of a batch on `threads` threads: with several of them on one
+/// that is not the caller's.
 /// Only with the feature "panic-test", never in a shipped library, and not in the header: a test
 /// declares it as `int32_t fpt_panic_test(uint32_t threads)`.
 ///
@@ -240,8 +241,12 @@ const fn number(digits: &str) -> u32 {
 #[unsafe(no_mangle)]
 pub extern "C" fn fpt_panic_test(threads: u32) -> fpt_status {
     guard(|| {
-        let mut out = [crate::closest::FootPoint::unreached(); 8];
-        let work = |i, _: &mut _| panic!("record {i} panics on purpose");
+        let unreached = crate::closest::FootPoint::unreached();
+        let mut out = [unreached; 1024];
+        // Tiles of 128 records go round the threads: this one lies in the second.
+        let work = |i, _: &mut _| {
+            if i == 200 { panic!("record {i} panics on purpose") } else { unreached }
+        };
         Ok(crate::batch::run(&mut out, threads as usize, &work, &mut |_| false)?)
     })
 }
