@@ -349,6 +349,18 @@ mod tests {
     }
 
     #[test]
+    fn a_cut_near_the_end_keeps_the_digits_of_small_weights() {
+        // Weights 1 and 1e-12 on [1 - 2^-29, 1 - 2^-30]: w(s) = (1 - s) + 1e-12 s, formed without cancellation.
+        let (left, right) = (2f64.powi(-29), 2f64.powi(-30));
+        let mut weights = [1.0, 1e-12];
+        cut(&mut weights, 1, 1, 1, 1.0 - left, 1.0 - right);
+        for (w, rest) in weights.into_iter().zip([left, right]) {
+            let expected = rest + 1e-12 * (1.0 - rest);
+            assert!((w - expected).abs() <= 4.0 * f64::EPSILON * expected, "{w:e} {expected:e}");
+        }
+    }
+
+    #[test]
     fn basis_derivatives_agree_with_differences() {
         for p in 1..=9 {
             let h = 1e-5;

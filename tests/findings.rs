@@ -152,3 +152,32 @@ fn feet_at_one_distance_on_two_sides_of_a_corner_are_a_tie() {
     let foot = ask_curve(&square, [0.5, 0.4, 0.], None, &QueryOptions::default());
     assert_eq!(foot.flags & flag::TIE, 0, "{foot:?}");
 }
+
+#[test]
+fn weights_whose_squares_underflow_close_no_box() {
+    let poles = [
+        [0.4013149573371284, 0.7135668477471271, 0.10891257424409562],
+        [0.04902048923809199, 0.7117543386391908, 0.17750856214762967],
+        [0.3610693054736651, 0.40793976217086825, 0.9344293515950043],
+        [0.5143839741633955, 0.5938459186383039, 0.6245794384643272],
+        [0.06212802076080781, 0.5783922477423444, 0.14989971007637937],
+        [0.9375934344869631, 0.3514372541845734, 0.8885464170927643],
+        [0.27666455401417533, 0.24076141158560715, 0.8184669297834566],
+        [0.09876788354972954, 0.9568279493429172, 0.19999014239819013],
+    ];
+    let weights = [1e-100, 1e100, 1e100, 1e100, 1e100, 1e100, 1e100, 1e100];
+    let knots = [[0.0; 8], [1.0; 8]].concat();
+    let curve = IndexedCurve::new(Curve::new(&knots, 7, &poles, Some(&weights)).unwrap());
+    let query = [0.6874654433263584, 0.5204078089163854, 0.28225464030387104];
+    let foot = ask_curve(&curve, query, None, &QueryOptions::default());
+    // The stretch from pole 0 to pole 1 is run through between u = 1e-202 and 1e-199: sample it geometrically.
+    let nearest = (0..4000)
+        .map(|k| curve.curve().evaluate(10f64.powf(-203.0 + f64::from(k) * 0.001)))
+        .map(|p| (0..3).map(|c| (p[c] - query[c]).powi(2)).sum::<f64>().sqrt())
+        .fold(f64::INFINITY, f64::min);
+    assert!(foot.lower_bound <= nearest, "{foot:?} {nearest}");
+    assert!(
+        foot.flags & flag::NOT_PROVEN != 0 || foot.distance <= nearest + 1e-9,
+        "{foot:?} {nearest}"
+    );
+}
