@@ -27,6 +27,8 @@ pub mod refine;
 
 pub mod closest;
 
+pub mod set;
+
 pub mod batch;
 
 mod ffi;
