@@ -38,6 +38,8 @@ use crate::refine::Method;
 use crate::tree::Queue;
 use proof::Proof;
 
+pub(crate) use differences::Slopes;
+
 /// Bits of [`FootPoint::flags`].
 pub mod flag {
     /// `distance - lower_bound` exceeds both the accuracy and the rounding floor.

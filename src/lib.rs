@@ -29,6 +29,8 @@ pub mod closest;
 
 pub mod set;
 
+pub mod roots;
+
 pub mod batch;
 
 mod ffi;
