@@ -31,6 +31,8 @@ pub mod set;
 
 pub mod roots;
 
+pub mod extrema;
+
 pub mod batch;
 
 mod ffi;

@@ -17,7 +17,7 @@ mod single;
 
 mod pair;
 
-pub use pair::{Pair, zeros_of_pair};
+pub use pair::{Meaning, Pair, zeros_of_pair};
 pub use single::zeros_of;
 
 /// Zeros found nearer than this to each other in the unit box are one zero seen from two boxes.
