@@ -38,8 +38,8 @@ use crate::refine::Method;
 use crate::tree::Queue;
 use proof::Proof;
 
-pub(crate) use certificate::subtract_query;
-pub(crate) use differences::Slopes;
+pub(crate) use certificate::{free_slope, slope_error, squared_error, subtract_query};
+pub(crate) use differences::{Slopes, convexity};
 pub(crate) use surface::local_interval;
 
 /// Bits of [`FootPoint::flags`].

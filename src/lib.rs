@@ -33,6 +33,8 @@ pub mod roots;
 
 pub mod extrema;
 
+pub mod preimage;
+
 pub mod batch;
 
 mod ffi;

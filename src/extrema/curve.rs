@@ -270,8 +270,8 @@ impl<'a> Search<'a> {
 
     fn flat_member(&self, area: [f64; 4]) -> Member {
         let middle = 0.5 * (area[0] + area[1]);
-        let mut foot = self.foot(middle);
         let flat = is_wide([area[0], area[1]], self.range, self.index.segments.iter().map(|s| s.u.ends));
+        let mut foot = self.foot(if flat { area[0] } else { middle });
         if flat {
             foot.flags |= flag::CONTINUUM | flag::TIE;
         }

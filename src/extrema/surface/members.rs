@@ -87,8 +87,6 @@ impl Search<'_> {
 
     /// A continuum, or a zero of higher order in a small area.
     fn flat_member(&self, area: [f64; 4]) -> Member {
-        let at = self.flat_place(area);
-        let mut foot = self.foot(at);
         let of_u = self.index.patches.iter().step_by(self.index.columns).map(|p| p.u.ends);
         let of_v = self.index.patches[..self.index.columns].iter().map(|p| p.v.ends);
         let [u0, u1, v0, v1] = self.range;
@@ -96,6 +94,10 @@ impl Search<'_> {
             is_wide([area[0], area[1]], [u0, u1], of_u),
             is_wide([area[2], area[3]], [v0, v1], of_v),
         ];
+        // Along a continuum every place is as good: its start is the canonical one.
+        let found = self.flat_place(area);
+        let at = [0, 1].map(|k| if flat[k] { area[2 * k] } else { found[k] });
+        let mut foot = self.foot(at);
         if flat != [false; 2] {
             foot.flags |= flag::CONTINUUM | flag::TIE;
         }
