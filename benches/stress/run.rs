@@ -1,0 +1,241 @@
+//! Cases over threads: a case is a shape with its queries, made from the seed and its number alone.
+
+use std::fmt::Write;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use footpoint::closest::{QueryOptions, Workspace};
+
+use super::asks::Asker;
+use super::design::Design;
+use super::exact::Exact;
+use super::families::FAMILIES;
+use super::judge::{Fault, Judge, Judged, Tally};
+use super::pieces::Pieces;
+use super::search::{Scratch, Search};
+use super::shapes::Random;
+
+/// Queries of a case: so many share the shape's index and samples.
+pub const QUERIES_A_CASE: u64 = 200;
+
+/// Disagreements written out of a family, and answers that were not proven.
+const WRITTEN: [u64; 2] = [40, 25];
+
+/// What to run.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    pub seed: u64,
+    pub queries: u64,
+    pub threads: usize,
+    /// Part of the names of the families to run; empty: all.
+    pub family: String,
+    /// One in so many answers is examined in doubled precision, besides every suspect.
+    pub examine_every: u64,
+    /// One case only.
+    pub case: Option<u64>,
+    pub queries_a_case: u64,
+}
+
+/// What came out, by family, and what was written about it.
+pub struct Outcome {
+    pub tallies: Vec<Tally>,
+    pub report: String,
+}
+
+impl Plan {
+    fn families(&self) -> Vec<usize> {
+        let is_wanted = |k: &usize| FAMILIES[*k].name.contains(&self.family);
+        (0..FAMILIES.len()).filter(is_wanted).collect()
+    }
+
+    pub fn run(&self) -> Outcome {
+        let families = self.families();
+        let cases = match self.case {
+            Some(case) => case..case + 1,
+            None => 0..self.queries.div_ceil(self.queries_a_case),
+        };
+        let next = AtomicU64::new(cases.start);
+        let outcome = Mutex::new(Outcome {
+            tallies: vec![Tally::default(); FAMILIES.len()],
+            report: String::new(),
+        });
+        let work = || {
+            let (mut workspace, mut scratch) = (Workspace::default(), Scratch::default());
+            loop {
+                let case = next.fetch_add(1, Ordering::Relaxed);
+                if case >= cases.end || families.is_empty() {
+                    return;
+                }
+                let family = families[(case % families.len() as u64) as usize];
+                let worst = outcome.lock().map_or(0.0, |all| all.tallies[family].worst);
+                let (tally, report) =
+                    self.run_case(family, case, worst, (&mut workspace, &mut scratch));
+                if let Ok(mut all) = outcome.lock() {
+                    all.enter(family, &tally, &report);
+                }
+            }
+        };
+        std::thread::scope(|scope| {
+            for _ in 0..self.threads.max(1) {
+                scope.spawn(work);
+            }
+        });
+        outcome.into_inner().expect("a thread panicked")
+    }
+
+    /// All queries of a case. The random numbers depend on the seed, the family and the number of the case.
+    fn run_case(
+        &self,
+        family: usize,
+        case: u64,
+        worst: f64,
+        memory: (&mut Workspace, &mut Scratch),
+    ) -> (Tally, Report) {
+        let mut r = Random(Random(self.seed ^ case.wrapping_mul(0x9e37_79b9_7f4a_7c15)).bits());
+        let (mut tally, mut report) = (Tally::beyond(worst), Report::default());
+        let (design, shape) = loop {
+            let design = (FAMILIES[family].make)(&mut r);
+            if let Some(shape) = design.shape() {
+                break (design, shape);
+            }
+        };
+        let mut options = QueryOptions::default();
+        let mut area = design.domain();
+        if FAMILIES[family].restricted {
+            area = restriction(&design, &mut r);
+            options.domain = Some(area);
+        }
+        let (pieces, extent) = (Pieces::new(&design), design.extent());
+        let search = Search::new(&pieces, area, extent.0);
+        let exact = Exact { design: &design, pieces: &pieces, area };
+        let asker =
+            Asker { design: &design, pieces: &pieces, search: &search, area, diagonal: extent.0 };
+        let judge =
+            Judge { shape: &shape, pieces: &pieces, search: &search, exact, options, extent };
+        // The first answer builds the index and counts for no time.
+        shape.ask_with(design.poles[0], None, &options, memory.0);
+        for number in 0..self.queries_a_case {
+            let ask = asker.ask(&mut r, memory.1);
+            let examine = (case * self.queries_a_case + number) % self.examine_every == 0;
+            let judged = judge.judge(&ask, examine, tally.worst, (&mut *memory.0, &mut *memory.1));
+            tally.enter(&judged);
+            let text = || format!("case={case} query={number} {ask:?} area {area:?}");
+            report.enter(&judged, text);
+        }
+        report.close(family, &design);
+        (tally, report)
+    }
+}
+
+/// A box of the parameters: often on knots, beside them, or thin.
+fn restriction(design: &Design, r: &mut Random) -> [f64; 4] {
+    let domain = design.domain();
+    let mut area = domain;
+    for k in 0..if design.is_curve() { 1 } else { 2 } {
+        let [low, high] = [domain[2 * k], domain[2 * k + 1]];
+        let knots: Vec<f64> =
+            design.knots[k].iter().copied().filter(|u| (low..=high).contains(u)).collect();
+        let mut pick = || {
+            let knot = knots[r.whole(0, knots.len() - 1)];
+            match r.whole(0, 4) {
+                0 | 1 => knot,
+                2 => knot + (high - low) * r.between(-1.0, 1.0) * r.scale(-12.0, -3.0),
+                _ => r.between(low, high),
+            }
+            .clamp(low, high)
+        };
+        let (a, b) = (pick(), pick());
+        if (a - b).abs() > 1e-9 * (high - low) {
+            area[2 * k..2 * k + 2].copy_from_slice(&[a.min(b), a.max(b)]);
+        }
+    }
+    area
+}
+
+/// What is worth telling of a case.
+#[derive(Default)]
+struct Report {
+    faults: Vec<String>,
+    open: Vec<String>,
+    design: String,
+}
+
+impl Report {
+    fn enter(&mut self, judged: &Judged, text: impl Fn() -> String) {
+        let Judged { foot, found, faults, .. } = judged;
+        let line = || {
+            let excess = (foot.distance - found.1, foot.lower_bound - found.1);
+            format!("{faults:?} {}\n    {foot:?}\n    found {found:?}, excess {excess:?}\n", text())
+        };
+        if !faults.is_empty() {
+            self.faults.push(line());
+        } else if foot.flags & footpoint::closest::flag::NOT_PROVEN != 0 {
+            self.open.push(line());
+        }
+    }
+
+    fn close(&mut self, family: usize, design: &Design) {
+        if !self.faults.is_empty() {
+            self.design = format!("  {}: {}", FAMILIES[family].name, design.text());
+        }
+    }
+}
+
+impl Outcome {
+    fn enter(&mut self, family: usize, tally: &Tally, report: &Report) {
+        let (name, all) = (FAMILIES[family].name, &mut self.tallies[family]);
+        let written = all.faults.iter().sum::<u64>();
+        if !report.faults.is_empty() && written < WRITTEN[0] {
+            self.report += &report.design;
+            report.faults.iter().take(10).for_each(|line| self.report += &format!("{name} {line}"));
+        }
+        if all.open < WRITTEN[1] {
+            report.open.iter().take(5).for_each(|line| self.report += &format!("{name} {line}"));
+        }
+        all.add(tally);
+    }
+
+    pub fn total(&self) -> Tally {
+        let mut total = Tally::default();
+        self.tallies.iter().for_each(|tally| total.add(tally));
+        total
+    }
+
+    /// A line a family, the sums below.
+    pub fn table(&self) -> String {
+        let mut text = format!(
+            "{:<26}{:>10}{:>7}{:>8}{:>9}{:>10}{:>8}{:>7}{:>9}{:>9}{:>11}{:>8}\n",
+            "family",
+            "queries",
+            "wrong",
+            "unsound",
+            "mismatch",
+            "marked",
+            "open",
+            "open %",
+            "examined",
+            "median",
+            "worst ns",
+            "evals"
+        );
+        let rows = FAMILIES.iter().map(|f| f.name).zip(&self.tallies);
+        let total = self.total();
+        for (name, tally) in rows.chain([("all", &total)]).filter(|(_, t)| t.queries > 0) {
+            let [wrong, unsound, marked, mismatch] =
+                [Fault::Wrong, Fault::Unsound, Fault::MarkedWorse, Fault::Mismatch]
+                    .map(|f| tally.of(f));
+            let share = 100.0 * tally.open as f64 / tally.queries as f64;
+            let _ = writeln!(
+                text,
+                "{name:<26}{:>10}{wrong:>7}{unsound:>8}{mismatch:>9}{marked:>10}{:>8}{share:>7.3}{:>9}{:>9.0}{:>11.0}{:>8}",
+                tally.queries,
+                tally.open,
+                tally.examined,
+                tally.median(),
+                tally.worst,
+                tally.evaluations
+            );
+        }
+        text
+    }
+}
