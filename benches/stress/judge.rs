@@ -5,7 +5,8 @@ use std::time::Instant;
 use footpoint::closest::{FootPoint, QueryOptions, Workspace, flag};
 
 use super::asks::Ask;
-use super::exact::Exact;
+use super::double::Double;
+use super::exact::{Exact, Verdict};
 use super::pieces::Pieces;
 use super::search::{Scratch, Search, square};
 use super::shapes::asked::Shape;
@@ -20,6 +21,8 @@ pub enum Fault {
     Unsound,
     /// Farther, but marked as not proven.
     MarkedWorse,
+    /// Marked, and no doubles as parameters are nearer: spans or weights for which doubles are too coarse.
+    Grain,
     /// The record contradicts itself or the shape.
     Mismatch,
 }
@@ -50,6 +53,15 @@ pub struct Judged {
     /// Parameters and distance of the nearest place found.
     pub found: ([f64; 2], f64),
     pub examined: bool,
+    /// The search alone, without the answer, found only a farther place.
+    pub is_missed: bool,
+}
+
+impl Judged {
+    fn new(foot: FootPoint) -> Self {
+        let found = ([f64::NAN; 2], f64::NAN);
+        Self { foot, time: 0.0, faults: Vec::new(), found, examined: false, is_missed: false }
+    }
 }
 
 impl Judge<'_> {
@@ -84,53 +96,76 @@ impl Judge<'_> {
                 time = time.min(self.answer(ask, memory.0).1);
             }
         }
-        let mut faults = Vec::new();
-        if self.contradicts(&foot, ask) {
-            faults.push(Fault::Mismatch);
-            return Judged {
-                foot,
-                time,
-                faults,
-                found: ([f64::NAN; 2], f64::NAN),
-                examined: false,
-            };
-        }
-        let own = self.pieces.place([foot.u, foot.v]);
-        let mut starts = ask.places.clone();
-        starts.push(own);
-        let quick = self.search.nearest(ask.query, &starts, memory.1);
-        let mut found = (self.pieces.parameters(&quick.place), quick.square.sqrt());
-        let limits = self.limits(ask, found.1);
-        let is_suspect = foot.distance > found.1 + 0.5 * limits.distance
-            || foot.lower_bound > found.1 + 0.3 * limits.bound;
-        if is_suspect || examine {
-            let verdicts = [
-                self.exact.refine(&quick.place, ask.query),
-                self.exact.refine_parameters([foot.u, foot.v], ask.query),
-            ];
-            let best = verdicts.into_iter().min_by(|a, b| a.distance.total_cmp(&b.distance));
-            if let Some(best) = best {
-                found = (best.at.map(|x| x.value()), best.distance);
-            }
-            self.convict(&foot, ask, found.1, &mut faults);
-        }
-        Judged { foot, time, faults, found, examined: is_suspect || examine }
+        Judged { time, ..self.verdict(ask, foot, examine, memory.1) }
     }
 
-    fn convict(&self, foot: &FootPoint, ask: &Ask, truth: f64, faults: &mut Vec<Fault>) {
+    /// Judges an answer, in doubled precision when it is suspect or `examine` says so.
+    pub fn verdict(
+        &self,
+        ask: &Ask,
+        foot: FootPoint,
+        examine: bool,
+        scratch: &mut Scratch,
+    ) -> Judged {
+        let mut judged = Judged::new(foot);
+        if self.contradicts(&foot, ask) {
+            judged.faults.push(Fault::Mismatch);
+            return judged;
+        }
+        let mut quick = self.search.nearest(ask.query, &ask.places, scratch);
+        let limits = self.limits(ask, foot.distance);
+        judged.is_missed = quick.square.sqrt() > foot.distance + limits.distance;
+        if quick.square > foot.distance * foot.distance {
+            let own = self.search.descend(self.pieces.place([foot.u, foot.v]), ask.query);
+            quick = if own.square < quick.square { own } else { quick };
+        }
+        judged.found = (self.pieces.parameters(&quick.place), quick.square.sqrt());
+        let is_suspect = foot.distance > judged.found.1 + 0.5 * limits.distance
+            || foot.lower_bound > judged.found.1 + 0.3 * limits.bound;
+        judged.examined = is_suspect || examine;
+        if judged.examined {
+            let own = self.exact.refine_parameters([foot.u, foot.v], ask.query);
+            let other = self.exact.refine(&quick.place, ask.query);
+            let best = if own.distance < other.distance { own } else { other };
+            judged.found = (best.at.map(Double::value), best.distance);
+            self.convict(ask, &best, &mut judged);
+        }
+        judged
+    }
+
+    fn convict(&self, ask: &Ask, best: &Verdict, judged: &mut Judged) {
+        let (foot, faults) = (&judged.foot, &mut judged.faults);
+        let truth = best.distance;
         let limits = self.limits(ask, truth);
         if foot.lower_bound > truth + limits.bound {
             faults.push(Fault::Unsound);
         }
         if foot.distance > truth + limits.distance {
             let is_marked = foot.flags & flag::NOT_PROVEN != 0;
-            faults.push(if is_marked { Fault::MarkedWorse } else { Fault::Wrong });
+            let is_grain = is_marked && foot.distance <= self.rounded(best, ask) + limits.distance;
+            faults.push(match (is_marked, is_grain) {
+                (false, _) => Fault::Wrong,
+                (true, false) => Fault::MarkedWorse,
+                (true, true) => Fault::Grain,
+            });
         }
         let exact = self.exact.point([foot.u, foot.v], ask.query);
         let evaluated = sub(foot.point, ask.query);
         if square(sub(exact, evaluated)).sqrt() > limits.bound + limits.rounding {
             faults.push(Fault::Mismatch);
         }
+    }
+
+    /// The least distance at the doubles around a place: what parameters can say.
+    fn rounded(&self, best: &Verdict, ask: &Ask) -> f64 {
+        let area = self.exact.area;
+        let around = [0, 1].map(|k| {
+            let x = best.at[k].value();
+            [x.next_down(), x, x.next_up()].map(|x| x.clamp(area[2 * k], area[2 * k + 1]))
+        });
+        let pairs = around[0].into_iter().flat_map(|u| around[1].map(|v| [u, v]));
+        let away = |at| square(self.exact.point(at, ask.query)).sqrt();
+        pairs.map(away).fold(f64::INFINITY, f64::min)
     }
 
     /// Outside the area, not the bits of the evaluation, a distance that is none, or a gap without a mark.
@@ -147,7 +182,7 @@ impl Judge<'_> {
         // Squares of distances below 1e-154 underflow here, though not in the library.
         let is_distance =
             (foot.distance - away).abs() <= 4.0 * f64::EPSILON * away || away < 1e-150;
-        !is_distance || gap.is_nan() || gap < 0.0 || (gap > 3.0 * limits.distance && !is_marked)
+        !is_distance || gap.is_nan() || gap < 0.0 || (gap > 20.0 * limits.distance && !is_marked)
     }
 }
 
@@ -160,8 +195,9 @@ pub struct Tally {
     pub queries: u64,
     pub examined: u64,
     /// In the order of [`Fault`].
-    pub faults: [u64; 4],
+    pub faults: [u64; 5],
     pub open: u64,
+    pub missed: u64,
     pub worst: f64,
     pub evaluations: u32,
     times: [u64; 256],
@@ -172,8 +208,9 @@ impl Default for Tally {
         Self {
             queries: 0,
             examined: 0,
-            faults: [0; 4],
+            faults: [0; 5],
             open: 0,
+            missed: 0,
             worst: 0.0,
             evaluations: 0,
             times: [0; 256],
@@ -194,6 +231,7 @@ impl Tally {
             self.faults[*fault as usize] += 1;
         }
         self.open += u64::from(judged.foot.flags & flag::NOT_PROVEN != 0);
+        self.missed += u64::from(judged.is_missed);
         self.worst = self.worst.max(judged.time);
         self.evaluations = self.evaluations.max(judged.foot.iterations);
         let step = (judged.time.max(1.0).log2() * STEPS) as usize;
@@ -204,6 +242,7 @@ impl Tally {
         self.queries += other.queries;
         self.examined += other.examined;
         self.open += other.open;
+        self.missed += other.missed;
         self.worst = self.worst.max(other.worst);
         self.evaluations = self.evaluations.max(other.evaluations);
         self.faults.iter_mut().zip(&other.faults).for_each(|(a, b)| *a += b);

@@ -1,6 +1,6 @@
 //! Cases over threads: a case is a shape with its queries, made from the seed and its number alone.
 
-use std::fmt::Write;
+use std::collections::BTreeMap;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -14,9 +14,6 @@ use super::judge::{Fault, Judge, Judged, Tally};
 use super::pieces::Pieces;
 use super::search::{Scratch, Search};
 use super::shapes::Random;
-
-/// Queries of a case: so many share the shape's index and samples.
-pub const QUERIES_A_CASE: u64 = 200;
 
 /// Disagreements written out of a family, and answers that were not proven.
 const WRITTEN: [u64; 2] = [40, 25];
@@ -33,12 +30,15 @@ pub struct Plan {
     pub examine_every: u64,
     /// One case only.
     pub case: Option<u64>,
+    /// So many share a shape, its index and its samples.
     pub queries_a_case: u64,
 }
 
 /// What came out, by family, and what was written about it.
 pub struct Outcome {
     pub tallies: Vec<Tally>,
+    /// By the kind of the query.
+    pub kinds: BTreeMap<&'static str, Tally>,
     pub report: String,
 }
 
@@ -57,7 +57,8 @@ impl Plan {
         let next = AtomicU64::new(cases.start);
         let outcome = Mutex::new(Outcome {
             tallies: vec![Tally::default(); FAMILIES.len()],
-            report: String::new(),
+            kinds: BTreeMap::new(),
+            report: format!("{self:?}\n"),
         });
         let work = || {
             let (mut workspace, mut scratch) = (Workspace::default(), Scratch::default());
@@ -119,10 +120,11 @@ impl Plan {
             let examine = (case * self.queries_a_case + number) % self.examine_every == 0;
             let judged = judge.judge(&ask, examine, tally.worst, (&mut *memory.0, &mut *memory.1));
             tally.enter(&judged);
+            report.kinds.entry(ask.kind).or_default().enter(&judged);
             let text = || format!("case={case} query={number} {ask:?} area {area:?}");
             report.enter(&judged, text);
         }
-        report.close(family, &design);
+        report.close(family, &design, self.case.is_some());
         (tally, report)
     }
 }
@@ -158,6 +160,7 @@ struct Report {
     faults: Vec<String>,
     open: Vec<String>,
     design: String,
+    kinds: BTreeMap<&'static str, Tally>,
 }
 
 impl Report {
@@ -174,8 +177,8 @@ impl Report {
         }
     }
 
-    fn close(&mut self, family: usize, design: &Design) {
-        if !self.faults.is_empty() {
+    fn close(&mut self, family: usize, design: &Design, always: bool) {
+        if always || !self.faults.is_empty() {
             self.design = format!("  {}: {}", FAMILIES[family].name, design.text());
         }
     }
@@ -185,7 +188,7 @@ impl Outcome {
     fn enter(&mut self, family: usize, tally: &Tally, report: &Report) {
         let (name, all) = (FAMILIES[family].name, &mut self.tallies[family]);
         let written = all.faults.iter().sum::<u64>();
-        if !report.faults.is_empty() && written < WRITTEN[0] {
+        if written < WRITTEN[0] {
             self.report += &report.design;
             report.faults.iter().take(10).for_each(|line| self.report += &format!("{name} {line}"));
         }
@@ -193,6 +196,9 @@ impl Outcome {
             report.open.iter().take(5).for_each(|line| self.report += &format!("{name} {line}"));
         }
         all.add(tally);
+        for (kind, tally) in &report.kinds {
+            self.kinds.entry(kind).or_default().add(tally);
+        }
     }
 
     pub fn total(&self) -> Tally {
@@ -203,39 +209,43 @@ impl Outcome {
 
     /// A line a family, the sums below.
     pub fn table(&self) -> String {
-        let mut text = format!(
-            "{:<26}{:>10}{:>7}{:>8}{:>9}{:>10}{:>8}{:>7}{:>9}{:>9}{:>11}{:>8}\n",
-            "family",
+        let head = [
             "queries",
             "wrong",
             "unsound",
             "mismatch",
-            "marked",
+            "worse",
+            "grain",
             "open",
             "open %",
             "examined",
-            "median",
+            "missed",
+            "median ns",
             "worst ns",
-            "evals"
-        );
-        let rows = FAMILIES.iter().map(|f| f.name).zip(&self.tallies);
+            "evals",
+        ];
+        let mut text = format!("{:<25}", "family, query");
+        head.iter().for_each(|name| text += &format!("{name:>10}"));
         let total = self.total();
-        for (name, tally) in rows.chain([("all", &total)]).filter(|(_, t)| t.queries > 0) {
-            let [wrong, unsound, marked, mismatch] =
-                [Fault::Wrong, Fault::Unsound, Fault::MarkedWorse, Fault::Mismatch]
-                    .map(|f| tally.of(f));
+        let families = FAMILIES.iter().map(|f| f.name).zip(&self.tallies);
+        let kinds = self.kinds.iter().map(|(kind, tally)| (*kind, tally));
+        for (name, tally) in
+            families.chain(kinds).chain([("all", &total)]).filter(|(_, t)| t.queries > 0)
+        {
+            text += &format!("\n{name:<25}{:>10}", tally.queries);
+            for fault in
+                [Fault::Wrong, Fault::Unsound, Fault::Mismatch, Fault::MarkedWorse, Fault::Grain]
+            {
+                text += &format!("{:>10}", tally.of(fault));
+            }
             let share = 100.0 * tally.open as f64 / tally.queries as f64;
-            let _ = writeln!(
-                text,
-                "{name:<26}{:>10}{wrong:>7}{unsound:>8}{mismatch:>9}{marked:>10}{:>8}{share:>7.3}{:>9}{:>9.0}{:>11.0}{:>8}",
-                tally.queries,
-                tally.open,
-                tally.examined,
-                tally.median(),
-                tally.worst,
-                tally.evaluations
+            text += &format!(
+                "{:>10}{share:>10.4}{:>10}{:>10}",
+                tally.open, tally.examined, tally.missed
             );
+            text +=
+                &format!("{:>10.0}{:>10.0}{:>10}", tally.median(), tally.worst, tally.evaluations);
         }
-        text
+        text + "\n"
     }
 }
