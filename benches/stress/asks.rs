@@ -15,6 +15,16 @@ pub struct Ask {
     pub places: Vec<Place>,
     pub hint: Option<[f64; 2]>,
     pub method: Method,
+    /// Not the default: share of the diagonal.
+    pub accuracy: Option<f64>,
+    pub budget: Option<u64>,
+}
+
+impl Ask {
+    /// Asked for less, or more, than the default promises.
+    pub fn is_special(&self) -> bool {
+        self.accuracy.is_some() || self.budget.is_some()
+    }
 }
 
 /// What queries are made from.
@@ -47,7 +57,9 @@ impl Asker<'_> {
         let hint = (r.unit() < 0.25).then(|| self.hint(&places, r));
         let methods = [Method::Maf, Method::Newton, Method::Osculating];
         let method = if r.unit() < 0.1 { methods[r.whole(0, 2)] } else { Method::Auto };
-        Ask { kind, query, places, hint, method }
+        let accuracy = (r.unit() < 0.03).then(|| r.scale(-14.0, -2.0));
+        let budget = (r.unit() < 0.03).then(|| r.whole(1, 300) as u64);
+        Ask { kind, query, places, hint, method, accuracy, budget }
     }
 
     /// The place it was made from, a place of the other parameters, or no parameters at all.

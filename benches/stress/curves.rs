@@ -207,6 +207,18 @@ pub fn conic(r: &mut Random) -> Design {
     design
 }
 
+/// A circle whose poles are off by a little: almost a continuum of feet at its centre.
+pub fn almost_circle(r: &mut Random) -> Design {
+    let (mut design, off) = (conic(r), r.scale(-14.0, -1.5));
+    let size = design.extent().0;
+    design.poles.iter_mut().for_each(|pole| *pole = along(*pole, r.vector(), off * size));
+    if r.unit() < 0.5 {
+        let end = design.poles.len() - 1;
+        design.poles[end] = design.poles[0];
+    }
+    design
+}
+
 pub fn unclamped(r: &mut Random) -> Design {
     let (degree, spans) = (degree(r), r.whole(1, 9));
     let design = plain(r, Knotting::Unclamped, degree, spans);

@@ -23,7 +23,7 @@ const fn boxed(name: &'static str, make: Make) -> Family {
     Family { name, make, restricted: true }
 }
 
-pub const FAMILIES: [Family; 54] = [
+pub const FAMILIES: [Family; 56] = [
     of("c smooth", curves::smooth),
     of("c rational", curves::rational),
     of("c random net", random_curve),
@@ -39,6 +39,7 @@ pub const FAMILIES: [Family; 54] = [
     of("c strips", curves::degenerate),
     of("c double covered", curves::double_covered),
     of("c conics", curves::conic),
+    of("c almost circles", curves::almost_circle),
     of("c unclamped", curves::unclamped),
     of("c periodic", curves::periodic),
     of("c wild knots", curves::wild_knots),
@@ -75,6 +76,7 @@ pub const FAMILIES: [Family; 54] = [
     of("s almost collapsed", turned::almost_collapsed),
     of("s cones and domes", turned::cone_or_dome),
     of("s spheres and tori", turned::primitive),
+    of("s almost turned", turned::almost_primitive),
     of("s sizes 1e+-9", sized_surface),
     of("s offset 1e8", offset_surface),
     boxed("s boxed", any_surface),

@@ -55,12 +55,37 @@ pub struct Judged {
     pub examined: bool,
     /// The search alone, without the answer, found only a farther place.
     pub is_missed: bool,
+    /// Two feet at one distance are known, and the answer does not say so.
+    pub is_untied: bool,
+    /// Budget or accuracy were not the default.
+    pub is_special: bool,
 }
 
 impl Judged {
-    fn new(foot: FootPoint) -> Self {
-        let found = ([f64::NAN; 2], f64::NAN);
-        Self { foot, time: 0.0, faults: Vec::new(), found, examined: false, is_missed: false }
+    fn new(foot: FootPoint, ask: &Ask) -> Self {
+        let (found, is_special) = (([f64::NAN; 2], f64::NAN), ask.is_special());
+        Self {
+            is_special,
+            is_untied: false,
+            foot,
+            time: 0.0,
+            faults: Vec::new(),
+            found,
+            examined: false,
+            is_missed: false,
+        }
+    }
+
+    /// Not proven, though asked as most are.
+    pub fn is_open(&self) -> bool {
+        self.foot.flags & flag::NOT_PROVEN != 0 && !self.is_special
+    }
+
+    /// What no answer may be.
+    pub fn is_grave(&self) -> bool {
+        self.faults
+            .iter()
+            .any(|fault| [Fault::Wrong, Fault::Unsound, Fault::Mismatch].contains(fault))
     }
 }
 
@@ -68,15 +93,19 @@ impl Judge<'_> {
     fn limits(&self, ask: &Ask, distance: f64) -> Limits {
         let largest = ask.query.iter().fold(self.extent.1, |m, x| m.max(x.abs()));
         let rounding = 4e-15 * (largest + distance);
+        // The default accuracy is part of the limit; a larger one comes on top.
+        let accuracy = ask.accuracy.map_or(0.0, |share| share * self.extent.0);
         Limits {
-            distance: 1e-9 * self.extent.0 + rounding,
+            distance: 1e-9 * self.extent.0 + accuracy + rounding,
             bound: 1e-12 * self.extent.0 + rounding,
             rounding,
         }
     }
 
     fn answer(&self, ask: &Ask, workspace: &mut Workspace) -> (FootPoint, f64) {
-        let options = QueryOptions { method: ask.method, ..self.options };
+        let accuracy = ask.accuracy.map_or(0.0, |share| share * self.extent.0);
+        let budget = ask.budget.unwrap_or(0);
+        let options = QueryOptions { method: ask.method, accuracy, budget, ..self.options };
         let start = Instant::now();
         let foot = self.shape.ask_with(ask.query, ask.hint, &options, workspace);
         (foot, start.elapsed().as_secs_f64() * 1e9)
@@ -107,7 +136,7 @@ impl Judge<'_> {
         examine: bool,
         scratch: &mut Scratch,
     ) -> Judged {
-        let mut judged = Judged::new(foot);
+        let mut judged = Judged::new(foot, ask);
         if self.contradicts(&foot, ask) {
             judged.faults.push(Fault::Mismatch);
             return judged;
@@ -120,6 +149,7 @@ impl Judge<'_> {
             quick = if own.square < quick.square { own } else { quick };
         }
         judged.found = (self.pieces.parameters(&quick.place), quick.square.sqrt());
+        judged.is_untied = self.is_untied(&foot, ask);
         let is_suspect = foot.distance > judged.found.1 + 0.5 * limits.distance
             || foot.lower_bound > judged.found.1 + 0.3 * limits.bound;
         judged.examined = is_suspect || examine;
@@ -143,10 +173,12 @@ impl Judge<'_> {
         if foot.distance > truth + limits.distance {
             let is_marked = foot.flags & flag::NOT_PROVEN != 0;
             let is_grain = is_marked && foot.distance <= self.rounded(best, ask) + limits.distance;
-            faults.push(match (is_marked, is_grain) {
-                (false, _) => Fault::Wrong,
-                (true, false) => Fault::MarkedWorse,
-                (true, true) => Fault::Grain,
+            faults.extend(match (is_marked, is_grain) {
+                // With a small budget nothing better is promised.
+                (true, _) if ask.is_special() => None,
+                (false, _) => Some(Fault::Wrong),
+                (true, false) => Some(Fault::MarkedWorse),
+                (true, true) => Some(Fault::Grain),
             });
         }
         let exact = self.exact.point([foot.u, foot.v], ask.query);
@@ -154,6 +186,21 @@ impl Judge<'_> {
         if square(sub(exact, evaluated)).sqrt() > limits.bound + limits.rounding {
             faults.push(Fault::Mismatch);
         }
+    }
+
+    /// Whether a place that the query was made from is a foot at the same distance elsewhere, and TIE is not set.
+    fn is_untied(&self, foot: &FootPoint, ask: &Ask) -> bool {
+        let (accuracy, limits) = (1e-10 * self.extent.0, self.limits(ask, foot.distance));
+        let is_due = ask.kind == "medial" && !ask.is_special() && limits.rounding < 0.1 * accuracy;
+        if !is_due || foot.flags & (flag::TIE | flag::NOT_PROVEN) != 0 {
+            return false;
+        }
+        ask.places.iter().any(|place| {
+            let other = self.search.descend(*place, ask.query);
+            let apart = sub(self.pieces.point(&other.place, [0.0; 3]), foot.point);
+            other.square.sqrt() <= foot.distance + 0.3 * accuracy
+                && square(apart).sqrt() > 1e-3 * self.extent.0
+        })
     }
 
     /// The least distance at the doubles around a place: what parameters can say.
@@ -198,6 +245,7 @@ pub struct Tally {
     pub faults: [u64; 5],
     pub open: u64,
     pub missed: u64,
+    pub untied: u64,
     pub worst: f64,
     pub evaluations: u32,
     times: [u64; 256],
@@ -211,6 +259,7 @@ impl Default for Tally {
             faults: [0; 5],
             open: 0,
             missed: 0,
+            untied: 0,
             worst: 0.0,
             evaluations: 0,
             times: [0; 256],
@@ -230,8 +279,9 @@ impl Tally {
         for fault in &judged.faults {
             self.faults[*fault as usize] += 1;
         }
-        self.open += u64::from(judged.foot.flags & flag::NOT_PROVEN != 0);
+        self.open += u64::from(judged.is_open());
         self.missed += u64::from(judged.is_missed);
+        self.untied += u64::from(judged.is_untied);
         self.worst = self.worst.max(judged.time);
         self.evaluations = self.evaluations.max(judged.foot.iterations);
         let step = (judged.time.max(1.0).log2() * STEPS) as usize;
@@ -243,6 +293,7 @@ impl Tally {
         self.examined += other.examined;
         self.open += other.open;
         self.missed += other.missed;
+        self.untied += other.untied;
         self.worst = self.worst.max(other.worst);
         self.evaluations = self.evaluations.max(other.evaluations);
         self.faults.iter_mut().zip(&other.faults).for_each(|(a, b)| *a += b);

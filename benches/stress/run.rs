@@ -15,8 +15,8 @@ use super::pieces::Pieces;
 use super::search::{Scratch, Search};
 use super::shapes::Random;
 
-/// Disagreements written out of a family, and answers that were not proven.
-const WRITTEN: [u64; 2] = [40, 25];
+/// Lines written of a family: grave ones, marked ones, ties not seen, answers not proven.
+const WRITTEN: [usize; 4] = [40, 20, 20, 20];
 
 /// What to run.
 #[derive(Clone, Debug)]
@@ -40,6 +40,7 @@ pub struct Outcome {
     /// By the kind of the query.
     pub kinds: BTreeMap<&'static str, Tally>,
     pub report: String,
+    written: Vec<[usize; 4]>,
 }
 
 impl Plan {
@@ -58,6 +59,7 @@ impl Plan {
         let outcome = Mutex::new(Outcome {
             tallies: vec![Tally::default(); FAMILIES.len()],
             kinds: BTreeMap::new(),
+            written: vec![[0; 4]; FAMILIES.len()],
             report: format!("{self:?}\n"),
         });
         let work = || {
@@ -124,7 +126,7 @@ impl Plan {
             let text = || format!("case={case} query={number} {ask:?} area {area:?}");
             report.enter(&judged, text);
         }
-        report.close(family, &design, self.case.is_some());
+        report.design = format!("case {case}, {}: {}", FAMILIES[family].name, design.text());
         (tally, report)
     }
 }
@@ -157,8 +159,8 @@ fn restriction(design: &Design, r: &mut Random) -> [f64; 4] {
 /// What is worth telling of a case.
 #[derive(Default)]
 struct Report {
-    faults: Vec<String>,
-    open: Vec<String>,
+    /// Grave ones, marked ones, ties not seen, answers not proven.
+    lines: [Vec<String>; 4],
     design: String,
     kinds: BTreeMap<&'static str, Tally>,
 }
@@ -168,34 +170,34 @@ impl Report {
         let Judged { foot, found, faults, .. } = judged;
         let line = || {
             let excess = (foot.distance - found.1, foot.lower_bound - found.1);
-            format!("{faults:?} {}\n    {foot:?}\n    found {found:?}, excess {excess:?}\n", text())
+            let untied = if judged.is_untied { " untied" } else { "" };
+            format!(
+                "{faults:?}{untied} {}\n    {foot:?}\n    found {found:?}, excess {excess:?}\n",
+                text()
+            )
         };
-        if !faults.is_empty() {
-            self.faults.push(line());
-        } else if foot.flags & footpoint::closest::flag::NOT_PROVEN != 0 {
-            self.open.push(line());
-        }
-    }
-
-    fn close(&mut self, family: usize, design: &Design, always: bool) {
-        if always || !self.faults.is_empty() {
-            self.design = format!("  {}: {}", FAMILIES[family].name, design.text());
+        let ranks = [judged.is_grave(), !faults.is_empty(), judged.is_untied, judged.is_open()];
+        if let Some(rank) = ranks.into_iter().position(|is_so| is_so) {
+            self.lines[rank].push(line());
         }
     }
 }
 
 impl Outcome {
     fn enter(&mut self, family: usize, tally: &Tally, report: &Report) {
-        let (name, all) = (FAMILIES[family].name, &mut self.tallies[family]);
-        let written = all.faults.iter().sum::<u64>();
-        if written < WRITTEN[0] {
-            self.report += &report.design;
-            report.faults.iter().take(10).for_each(|line| self.report += &format!("{name} {line}"));
+        self.tallies[family].add(tally);
+        let mut design = Some(&report.design);
+        for (rank, lines) in report.lines.iter().enumerate() {
+            let most = WRITTEN[rank].saturating_sub(self.written[family][rank]).min(10);
+            for line in lines.iter().take(most) {
+                // Once a case, before its first line.
+                if let Some(design) = design.take() {
+                    self.report += design;
+                }
+                self.report += &format!("{} {line}", FAMILIES[family].name);
+                self.written[family][rank] += 1;
+            }
         }
-        if all.open < WRITTEN[1] {
-            report.open.iter().take(5).for_each(|line| self.report += &format!("{name} {line}"));
-        }
-        all.add(tally);
         for (kind, tally) in &report.kinds {
             self.kinds.entry(kind).or_default().add(tally);
         }
@@ -218,6 +220,7 @@ impl Outcome {
             "grain",
             "open",
             "open %",
+            "untied",
             "examined",
             "missed",
             "median ns",
@@ -240,8 +243,8 @@ impl Outcome {
             }
             let share = 100.0 * tally.open as f64 / tally.queries as f64;
             text += &format!(
-                "{:>10}{share:>10.4}{:>10}{:>10}",
-                tally.open, tally.examined, tally.missed
+                "{:>10}{share:>10.4}{:>10}{:>10}{:>10}",
+                tally.open, tally.untied, tally.examined, tally.missed
             );
             text +=
                 &format!("{:>10.0}{:>10.0}{:>10}", tally.median(), tally.worst, tally.evaluations);

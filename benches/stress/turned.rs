@@ -56,6 +56,17 @@ pub fn primitive(r: &mut Random) -> Design {
     design
 }
 
+/// The same with poles, or radii only, off by a little.
+pub fn almost_primitive(r: &mut Random) -> Design {
+    let (mut design, off) = (primitive(r), r.scale(-14.0, -1.5));
+    let (size, even) = (design.extent().0, r.unit() < 0.4);
+    for pole in &mut design.poles {
+        let away = if even { [0.0, 0.0, pole[0]] } else { r.vector().map(|x| x * size) };
+        *pole = along(*pole, away, off);
+    }
+    design
+}
+
 /// The poles of a side: 0 and 1 first and last row, 2 and 3 first and last column.
 fn side(counts: [usize; 2], which: usize) -> Vec<usize> {
     let [m, n] = counts;
