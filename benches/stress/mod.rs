@@ -8,6 +8,8 @@
 //!
 //! Limit: the search may miss a narrow valley; then nothing is said. What it says is never wrong.
 
+#![allow(dead_code, reason = "each program uses its own part")]
+
 pub mod asks;
 pub mod curves;
 pub mod design;
