@@ -455,8 +455,7 @@ mod tests {
         for side in 0..4 {
             let high = if side < 2 { Bidegree { s: 3, t: 1 } } else { Bidegree { s: 2, t: 2 } };
             let x: [f64; 2] = if side % 2 == 0 { [0.0, 1.0] } else { [1.0, 0.0] };
-            let one =
-                if side < 2 { Bidegree { s: 1, t: 0 } } else { Bidegree { s: 0, t: 1 } };
+            let one = if side < 2 { Bidegree { s: 1, t: 0 } } else { Bidegree { s: 0, t: 1 } };
             let (mut a, mut product) = (f.to_vec(), vec![0.0; high.count()]);
             scale_up_2d(&mut a, degree);
             convolve(&a, degree, &x, one, 1.0, &mut product);

@@ -100,9 +100,11 @@ pub fn touch(a: &[f64; 4], b: &[f64; 4]) -> bool {
 }
 
 fn hull(boxes: &[[f64; 4]]) -> [f64; 4] {
-    boxes.iter().fold([f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY], |h, b| {
-        [h[0].min(b[0]), h[1].max(b[1]), h[2].min(b[2]), h[3].max(b[3])]
-    })
+    boxes
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY], |h, b| {
+            [h[0].min(b[0]), h[1].max(b[1]), h[2].min(b[2]), h[3].max(b[3])]
+        })
 }
 
 /// Share of a span from which on an interval is more than the surroundings of a point.
@@ -138,7 +140,12 @@ mod tests {
 
     #[test]
     fn boxes_that_touch_become_one_and_others_do_not() {
-        let boxes = vec![[2.0, 3.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0], [1.0, 2.0, 1.0, 2.0], [5.0, 6.0, 0.0, 1.0]];
+        let boxes = vec![
+            [2.0, 3.0, 0.0, 1.0],
+            [0.0, 1.0, 0.0, 1.0],
+            [1.0, 2.0, 1.0, 2.0],
+            [5.0, 6.0, 0.0, 1.0],
+        ];
         assert_eq!(joined(boxes), [[0.0, 3.0, 0.0, 2.0], [5.0, 6.0, 0.0, 1.0]]);
     }
 

@@ -32,10 +32,11 @@ fn nothing_is_wrong_or_unsound() {
         examine_every: 7,
         case: None,
         queries_a_case: 25,
+        sets_every: 101,
     };
     let outcome = plan.run();
     println!("{}", outcome.table());
-    assert!(outcome.total().is_clean(), "{}\n{}", outcome.table(), outcome.report);
+    assert!(outcome.is_clean(), "{}\n{}", outcome.table(), outcome.report);
     assert!(outcome.total().queries >= queries());
 }
 
@@ -49,6 +50,7 @@ fn a_case_depends_on_its_seed_and_number_only() {
         examine_every: 10,
         case: None,
         queries_a_case: 10,
+        sets_every: u64::MAX,
     };
     let (alone, together) = (plan.run(), Plan { threads: 3, ..plan }.run());
     for (a, b) in alone.tallies.iter().zip(&together.tallies) {

@@ -25,6 +25,8 @@ pub enum Fault {
     Grain,
     /// The record contradicts itself or the shape.
     Mismatch,
+    /// A set leaves out a place that is known to belong to it.
+    Lost,
 }
 
 /// Everything one shape is judged with.
@@ -61,8 +63,12 @@ pub struct Judged {
     pub is_special: bool,
 }
 
+/// What no answer may be.
+const GRAVE: [Fault; 4] = [Fault::Wrong, Fault::Unsound, Fault::Mismatch, Fault::Lost];
+
 impl Judged {
-    fn new(foot: FootPoint, ask: &Ask) -> Self {
+    /// Nothing found yet.
+    pub fn new(foot: FootPoint, ask: &Ask) -> Self {
         let (found, is_special) = (([f64::NAN; 2], f64::NAN), ask.is_special());
         Self {
             is_special,
@@ -83,13 +89,16 @@ impl Judged {
 
     /// What no answer may be.
     pub fn is_grave(&self) -> bool {
-        self.faults
-            .iter()
-            .any(|fault| [Fault::Wrong, Fault::Unsound, Fault::Mismatch].contains(fault))
+        self.faults.iter().any(|fault| GRAVE.contains(fault))
     }
 }
 
 impl Judge<'_> {
+    /// What rounding of the query and the shape may make of a distance, at least.
+    pub fn rounding(&self, ask: &Ask) -> f64 {
+        self.limits(ask, 0.0).rounding
+    }
+
     fn limits(&self, ask: &Ask, distance: f64) -> Limits {
         let largest = ask.query.iter().fold(self.extent.1, |m, x| m.max(x.abs()));
         let rounding = 4e-15 * (largest + distance);
@@ -242,7 +251,7 @@ pub struct Tally {
     pub queries: u64,
     pub examined: u64,
     /// In the order of [`Fault`].
-    pub faults: [u64; 5],
+    pub faults: [u64; 6],
     pub open: u64,
     pub missed: u64,
     pub untied: u64,
@@ -256,7 +265,7 @@ impl Default for Tally {
         Self {
             queries: 0,
             examined: 0,
-            faults: [0; 5],
+            faults: [0; 6],
             open: 0,
             missed: 0,
             untied: 0,
@@ -318,6 +327,6 @@ impl Tally {
 
     /// No answer that is wrong, no bound, no record.
     pub fn is_clean(&self) -> bool {
-        [Fault::Wrong, Fault::Unsound, Fault::Mismatch].iter().all(|fault| self.of(*fault) == 0)
+        GRAVE.iter().all(|fault| self.of(*fault) == 0)
     }
 }

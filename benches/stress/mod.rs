@@ -17,9 +17,11 @@ pub mod double;
 pub mod exact;
 pub mod families;
 pub mod judge;
+pub mod outcome;
 pub mod pieces;
 pub mod run;
 pub mod search;
+pub mod sets;
 pub mod sheets;
 pub mod turned;
 

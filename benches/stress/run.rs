@@ -1,6 +1,5 @@
 //! Cases over threads: a case is a shape with its queries, made from the seed and its number alone.
 
-use std::collections::BTreeMap;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -10,13 +9,12 @@ use super::asks::Asker;
 use super::design::Design;
 use super::exact::Exact;
 use super::families::FAMILIES;
-use super::judge::{Fault, Judge, Judged, Tally};
+use super::judge::{Judge, Tally};
+use super::outcome::{Outcome, Report};
 use super::pieces::Pieces;
 use super::search::{Scratch, Search};
+use super::sets;
 use super::shapes::Random;
-
-/// Lines written of a family: grave ones, marked ones, ties not seen, answers not proven.
-const WRITTEN: [usize; 4] = [40, 20, 20, 20];
 
 /// What to run.
 #[derive(Clone, Debug)]
@@ -32,15 +30,8 @@ pub struct Plan {
     pub case: Option<u64>,
     /// So many share a shape, its index and its samples.
     pub queries_a_case: u64,
-}
-
-/// What came out, by family, and what was written about it.
-pub struct Outcome {
-    pub tallies: Vec<Tally>,
-    /// By the kind of the query.
-    pub kinds: BTreeMap<&'static str, Tally>,
-    pub report: String,
-    written: Vec<[usize; 4]>,
+    /// Preimage and extrema are asked for with one in so many queries.
+    pub sets_every: u64,
 }
 
 impl Plan {
@@ -56,12 +47,10 @@ impl Plan {
             None => 0..self.queries.div_ceil(self.queries_a_case),
         };
         let next = AtomicU64::new(cases.start);
-        let outcome = Mutex::new(Outcome {
-            tallies: vec![Tally::default(); FAMILIES.len()],
-            kinds: BTreeMap::new(),
-            written: vec![[0; 4]; FAMILIES.len()],
-            report: format!("{self:?}\n"),
-        });
+        let outcome = Mutex::new(Outcome::new(&format!(
+            "{self:?}
+"
+        )));
         let work = || {
             let (mut workspace, mut scratch) = (Workspace::default(), Scratch::default());
             loop {
@@ -119,12 +108,19 @@ impl Plan {
         shape.ask_with(design.poles[0], None, &options, memory.0);
         for number in 0..self.queries_a_case {
             let ask = asker.ask(&mut r, memory.1);
-            let examine = (case * self.queries_a_case + number) % self.examine_every == 0;
+            let count = case * self.queries_a_case + number;
+            let examine = count % self.examine_every == 0;
             let judged = judge.judge(&ask, examine, tally.worst, (&mut *memory.0, &mut *memory.1));
             tally.enter(&judged);
             report.kinds.entry(ask.kind).or_default().enter(&judged);
             let text = || format!("case={case} query={number} {ask:?} area {area:?}");
             report.enter(&judged, text);
+            if (count + 1) % self.sets_every == 0 {
+                let preimage = sets::preimage(&judge, &ask, memory.1);
+                report.enter_set(0, &preimage, || format!("preimage {}", text()));
+                let extrema = sets::extrema(&judge, &ask, judged.foot.distance, memory.1);
+                report.enter_set(1, &extrema, || format!("extrema {}", text()));
+            }
         }
         report.design = format!("case {case}, {}: {}", FAMILIES[family].name, design.text());
         (tally, report)
@@ -154,101 +150,4 @@ fn restriction(design: &Design, r: &mut Random) -> [f64; 4] {
         }
     }
     area
-}
-
-/// What is worth telling of a case.
-#[derive(Default)]
-struct Report {
-    /// Grave ones, marked ones, ties not seen, answers not proven.
-    lines: [Vec<String>; 4],
-    design: String,
-    kinds: BTreeMap<&'static str, Tally>,
-}
-
-impl Report {
-    fn enter(&mut self, judged: &Judged, text: impl Fn() -> String) {
-        let Judged { foot, found, faults, .. } = judged;
-        let line = || {
-            let excess = (foot.distance - found.1, foot.lower_bound - found.1);
-            let untied = if judged.is_untied { " untied" } else { "" };
-            format!(
-                "{faults:?}{untied} {}\n    {foot:?}\n    found {found:?}, excess {excess:?}\n",
-                text()
-            )
-        };
-        let ranks = [judged.is_grave(), !faults.is_empty(), judged.is_untied, judged.is_open()];
-        if let Some(rank) = ranks.into_iter().position(|is_so| is_so) {
-            self.lines[rank].push(line());
-        }
-    }
-}
-
-impl Outcome {
-    fn enter(&mut self, family: usize, tally: &Tally, report: &Report) {
-        self.tallies[family].add(tally);
-        let mut design = Some(&report.design);
-        for (rank, lines) in report.lines.iter().enumerate() {
-            let most = WRITTEN[rank].saturating_sub(self.written[family][rank]).min(10);
-            for line in lines.iter().take(most) {
-                // Once a case, before its first line.
-                if let Some(design) = design.take() {
-                    self.report += design;
-                }
-                self.report += &format!("{} {line}", FAMILIES[family].name);
-                self.written[family][rank] += 1;
-            }
-        }
-        for (kind, tally) in &report.kinds {
-            self.kinds.entry(kind).or_default().add(tally);
-        }
-    }
-
-    pub fn total(&self) -> Tally {
-        let mut total = Tally::default();
-        self.tallies.iter().for_each(|tally| total.add(tally));
-        total
-    }
-
-    /// A line a family, the sums below.
-    pub fn table(&self) -> String {
-        let head = [
-            "queries",
-            "wrong",
-            "unsound",
-            "mismatch",
-            "worse",
-            "grain",
-            "open",
-            "open %",
-            "untied",
-            "examined",
-            "missed",
-            "median ns",
-            "worst ns",
-            "evals",
-        ];
-        let mut text = format!("{:<25}", "family, query");
-        head.iter().for_each(|name| text += &format!("{name:>10}"));
-        let total = self.total();
-        let families = FAMILIES.iter().map(|f| f.name).zip(&self.tallies);
-        let kinds = self.kinds.iter().map(|(kind, tally)| (*kind, tally));
-        for (name, tally) in
-            families.chain(kinds).chain([("all", &total)]).filter(|(_, t)| t.queries > 0)
-        {
-            text += &format!("\n{name:<25}{:>10}", tally.queries);
-            for fault in
-                [Fault::Wrong, Fault::Unsound, Fault::Mismatch, Fault::MarkedWorse, Fault::Grain]
-            {
-                text += &format!("{:>10}", tally.of(fault));
-            }
-            let share = 100.0 * tally.open as f64 / tally.queries as f64;
-            text += &format!(
-                "{:>10}{share:>10.4}{:>10}{:>10}{:>10}",
-                tally.open, tally.untied, tally.examined, tally.missed
-            );
-            text +=
-                &format!("{:>10.0}{:>10.0}{:>10}", tally.median(), tally.worst, tally.evaluations);
-        }
-        text + "\n"
-    }
 }

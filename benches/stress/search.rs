@@ -195,13 +195,7 @@ impl<'a> Search<'a> {
 
     /// The nearest place found, from the samples and from `others`.
     pub fn nearest(&self, query: Vector, others: &[Place], scratch: &mut Scratch) -> Found {
-        let [xs, ys, zs] = &self.points;
-        scratch.squares.clear();
-        let columns = xs.iter().zip(ys).zip(zs);
-        scratch
-            .squares
-            .extend(columns.map(|((x, y), z)| square([x - query[0], y - query[1], z - query[2]])));
-        self.minima(scratch);
+        self.measure(query, scratch);
         let mut best = Found { place: self.place_of(scratch.starts[0].1), square: f64::INFINITY };
         for place in others {
             let found = self.descend(*place, query);
@@ -219,6 +213,24 @@ impl<'a> Search<'a> {
             }
         }
         best
+    }
+
+    /// Where the descents from the best local minima of the samples and from `others` end.
+    pub fn descents(&self, query: Vector, others: &[Place], scratch: &mut Scratch) -> Vec<Found> {
+        self.measure(query, scratch);
+        let starts = scratch.starts.iter().map(|(_, k)| self.place_of(*k));
+        starts.chain(others.iter().copied()).map(|place| self.descend(place, query)).collect()
+    }
+
+    /// The squared distances of all samples, and their least ones.
+    fn measure(&self, query: Vector, scratch: &mut Scratch) {
+        let [xs, ys, zs] = &self.points;
+        scratch.squares.clear();
+        let columns = xs.iter().zip(ys).zip(zs);
+        let away =
+            |((x, y), z): ((&f64, &f64), &f64)| square([x - query[0], y - query[1], z - query[2]]);
+        scratch.squares.extend(columns.map(away));
+        self.minima(scratch);
     }
 
     /// The samples that no neighbour is nearer than, nearest first, a few of them.

@@ -183,7 +183,13 @@ impl IndexedCurve {
     }
 
     /// The record at a parameter, with the flags of the place.
-    pub(crate) fn foot_at(&self, index: &CurveIndex, query: Vector, u: f64, range: [f64; 2]) -> FootPoint {
+    pub(crate) fn foot_at(
+        &self,
+        index: &CurveIndex,
+        query: Vector,
+        u: f64,
+        range: [f64; 2],
+    ) -> FootPoint {
         let (first, last) = self.curve().domain();
         let mut u = u;
         let mut point = self.curve().evaluate(u);

@@ -45,7 +45,8 @@ impl IndexedCurve {
         let steps = position_steps(index.degree());
         let worst = position_error(steps, index.is_rational(), 2.0, norm(q) + 2.0, norm(q));
         let floor = rounding_floor(&index.frame, query, worst);
-        let asked = if options.accuracy > 0.0 { options.accuracy } else { 1e-10 * index.frame.diagonal };
+        let asked =
+            if options.accuracy > 0.0 { options.accuracy } else { 1e-10 * index.frame.diagonal };
         let accuracy = asked.max(floor);
         let mut search = Search {
             shape: self,
@@ -144,8 +145,7 @@ impl<'a> Search<'a> {
         let degree = Bidegree { s: 0, t: line.net.degree };
         let range = [0.0, 1.0, line.range[0], line.range[1]];
         let sizes = [segment.radius, line.position, 0.0];
-        let view =
-            View::new(line.net.poles, degree, line.net.rational, range, line.query, sizes);
+        let view = View::new(line.net.poles, degree, line.net.rational, range, line.query, sizes);
         let slope = view.slope(1);
         let whole = [self.global(&line, 0.0), self.global(&line, 1.0), 0.0, 0.0];
         if !slope.error.is_finite() {
@@ -176,7 +176,9 @@ impl<'a> Search<'a> {
     fn take(&mut self, line: &Line, zero: &Zero<1>) {
         let ends = [zero.low[0], zero.high[0]];
         match zero.found {
-            Found::Root => self.push(line, line.polish(line.local(zero.at[0])), ends, Source::Inside),
+            Found::Root => {
+                self.push(line, line.polish(line.local(zero.at[0])), ends, Source::Inside)
+            }
             Found::Flat => self.push(line, line.local(zero.at[0]), ends, Source::Flat),
             Found::Undecided => {
                 let [a, b] = ends.map(|x| self.global(line, x));
@@ -254,7 +256,13 @@ impl<'a> Search<'a> {
         for (piece, s) in self.index.around(u, self.range) {
             let Some(line) = self.line(piece) else { continue };
             let at_end = |end: f64| if u == self.range[0] { 0.0 } else { end };
-            let end = if end_of(s) != 0.0 { s } else if u == self.range[1] { 1.0 } else { at_end(s) };
+            let end = if end_of(s) != 0.0 {
+                s
+            } else if u == self.range[1] {
+                1.0
+            } else {
+                at_end(s)
+            };
             signs.segment(&line.jet(s), end, line.position);
         }
         if candidate.source == Source::Border && signs.passes() {
@@ -270,7 +278,8 @@ impl<'a> Search<'a> {
 
     fn flat_member(&self, area: [f64; 4]) -> Member {
         let middle = 0.5 * (area[0] + area[1]);
-        let flat = is_wide([area[0], area[1]], self.range, self.index.segments.iter().map(|s| s.u.ends));
+        let flat =
+            is_wide([area[0], area[1]], self.range, self.index.segments.iter().map(|s| s.u.ends));
         let mut foot = self.foot(if flat { area[0] } else { middle });
         if flat {
             foot.flags |= flag::CONTINUUM | flag::TIE;

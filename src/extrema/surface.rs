@@ -43,7 +43,8 @@ impl IndexedSurface {
         let steps = position_steps(index.degree.s + index.degree.t);
         let worst = position_error(steps, index.rational, 2.0, norm(q) + 2.0, norm(q));
         let floor = rounding_floor(&index.frame, query, worst);
-        let asked = if options.accuracy > 0.0 { options.accuracy } else { 1e-10 * index.frame.diagonal };
+        let asked =
+            if options.accuracy > 0.0 { options.accuracy } else { 1e-10 * index.frame.diagonal };
         let accuracy = asked.max(floor);
         let mut search = Search {
             shape: self,
@@ -180,7 +181,13 @@ impl Meaning for Sheet<'_> {
         let greatest = |k: usize| {
             let at = self.local(if k % 2 == 0 { high } else { low });
             let x = at[k / 2];
-            if !self.collapsed[k] { 1.0 } else if k % 2 == 0 { x } else { 1.0 - x }
+            if !self.collapsed[k] {
+                1.0
+            } else if k % 2 == 0 {
+                x
+            } else {
+                1.0 - x
+            }
         };
         [greatest(side::T0) * greatest(side::T1), greatest(side::S0) * greatest(side::S1)]
     }
@@ -307,12 +314,8 @@ impl<'a> Search<'a> {
             self.give_up(sheet, [0.0; 2], [1.0; 2]);
             return;
         }
-        let pair = Pair {
-            first: &slopes[0].coefficients,
-            second: &slopes[1].coefficients,
-            degree,
-            error,
-        };
+        let pair =
+            Pair { first: &slopes[0].coefficients, second: &slopes[1].coefficients, degree, error };
         let mut zeros = Vec::new();
         zeros_of_pair(&pair, sheet, &mut self.budget, &mut zeros);
         for zero in zeros {
@@ -444,8 +447,8 @@ impl<'a> Search<'a> {
             }
         });
         // On a seam seen from the other end the piece's own end counts.
-        let ends = [0, 1].map(|k| if local[k] == 0.0 || local[k] == 1.0 { local[k] } else { ends[k] });
+        let ends =
+            [0, 1].map(|k| if local[k] == 0.0 || local[k] == 1.0 { local[k] } else { ends[k] });
         (local, ends)
     }
 }
-

@@ -143,7 +143,9 @@ impl<'a> Search<'a> {
             direction: self.request.target.direction(),
             reach: self.request.target.reach().map(|x| (x - origin) * scale),
             range: [s[0], s[1], t[0], t[1]],
-            position: position + patch.spread + self.request.target.rounding(&self.index.frame) * scale,
+            position: position
+                + patch.spread
+                + self.request.target.rounding(&self.index.frame) * scale,
             tolerance: self.request.tolerance * scale,
         })
     }

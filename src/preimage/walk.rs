@@ -318,7 +318,8 @@ fn convex(sheet: &Sheet, net: &mut Net, area: [f64; 4], error: f64) -> Option<Ve
     let twice = sheet.degree.times(sheet.degree);
     let bends = if sheet.is_curve() {
         let m = twice.t as f64;
-        let second = n.windows(3).map(|w| (w[2] - w[1]) - (w[1] - w[0])).fold(f64::INFINITY, f64::min);
+        let second =
+            n.windows(3).map(|w| (w[2] - w[1]) - (w[1] - w[0])).fold(f64::INFINITY, f64::min);
         let least = m * (m - 1.0) * (second - allowance);
         (least > 0.0).then_some([1.0, 0.0, least])
     } else {
@@ -390,9 +391,8 @@ fn enclosed(
         smaller[2 * k + 1] = (at[k] + reach).min(high);
         shrinks |= smaller[2 * k + 1] - smaller[2 * k] < 0.5 * (high - low);
     }
-    let wide = (0..2).any(|k| {
-        (k == 1 || !sheet.is_curve()) && smaller[2 * k + 1] - smaller[2 * k] > 1e-12
-    });
+    let wide = (0..2)
+        .any(|k| (k == 1 || !sheet.is_curve()) && smaller[2 * k + 1] - smaller[2 * k] > 1e-12);
     if shrinks && wide {
         return Verdict::Again(smaller);
     }

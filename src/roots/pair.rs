@@ -41,12 +41,7 @@ struct Area {
 }
 
 /// Appends all common zeros of the pair on the unit box to `out`.
-pub fn zeros_of_pair(
-    pair: &Pair,
-    meaning: &dyn Meaning,
-    budget: &mut u64,
-    out: &mut Vec<Zero<2>>,
-) {
+pub fn zeros_of_pair(pair: &Pair, meaning: &dyn Meaning, budget: &mut u64, out: &mut Vec<Zero<2>>) {
     let count = pair.degree.count();
     let mut memory = Vec::with_capacity(32 * 2 * count);
     memory.extend_from_slice(pair.first);
@@ -57,7 +52,8 @@ pub fn zeros_of_pair(
     });
     let scratch = vec![0.0; 2 * count];
     let first = out.len();
-    let mut walk = Walk { degree: pair.degree, count, memory, scratch, growth, meaning, out, first };
+    let mut walk =
+        Walk { degree: pair.degree, count, memory, scratch, growth, meaning, out, first };
     let mut waiting = vec![Area { low: [0.0; 2], high: [1.0; 2], error: pair.error }];
     while let Some(area) = waiting.pop() {
         match walk.judge(&area, waiting.len(), budget) {
@@ -137,10 +133,8 @@ impl Walk<'_, '_> {
         if det.is_nan() || det.abs() <= 1e-12 * size {
             return false;
         }
-        let inverse = [
-            [middle[1][1] / det, -middle[0][1] / det],
-            [-middle[1][0] / det, middle[0][0] / det],
-        ];
+        let inverse =
+            [[middle[1][1] / det, -middle[0][1] / det], [-middle[1][0] / det, middle[0][0] / det]];
         let error = inverse.map(|row| {
             let size = [0, 1].map(|k| greatest(extent(self.coefficients(at, k))));
             let rounded = 8.0 * HALF_ULP * (row[0].abs() * size[0] + row[1].abs() * size[1]);
@@ -178,8 +172,7 @@ impl Walk<'_, '_> {
     /// `inverse` times the two polynomials, into the scratch memory.
     fn precondition(&mut self, at: usize, inverse: [[f64; 2]; 2]) {
         let count = self.count;
-        let (first, second) =
-            self.memory[2 * at * count..2 * (at + 1) * count].split_at(count);
+        let (first, second) = self.memory[2 * at * count..2 * (at + 1) * count].split_at(count);
         let (a, b) = self.scratch.split_at_mut(count);
         for k in 0..count {
             a[k] = inverse[0][0] * first[k] + inverse[0][1] * second[k];
@@ -323,7 +316,8 @@ mod tests {
     #[test]
     fn a_zero_on_the_border_of_boxes_is_found_once_and_one_on_the_border_of_all_too() {
         // s = 1/2, t = 1/2; then s = 0, t = 1.
-        let zeros = found(&[-0.5, -0.5, 0.5, 0.5], &[-0.5, 0.5, -0.5, 0.5], Bidegree { s: 1, t: 1 });
+        let zeros =
+            found(&[-0.5, -0.5, 0.5, 0.5], &[-0.5, 0.5, -0.5, 0.5], Bidegree { s: 1, t: 1 });
         assert_eq!(zeros.len(), 1);
         assert_eq!(zeros[0].at, [0.5, 0.5]);
         let zeros = found(&[0.0, 0.0, 1.0, 1.0], &[-1.0, 0.0, -1.0, 0.0], Bidegree { s: 1, t: 1 });

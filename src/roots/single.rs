@@ -93,7 +93,11 @@ fn root(g: &[f64]) -> (f64, f64) {
         if value == 0.0 {
             break;
         }
-        if (value > 0.0) == rising { high = x } else { low = x }
+        if (value > 0.0) == rising {
+            high = x
+        } else {
+            low = x
+        }
         let newton = x - value / derivative;
         let next = if newton > low && newton < high { newton } else { newton.clamp(low, high) };
         let stuck = next == low || next == high;

@@ -56,31 +56,18 @@ pub fn turned(knots: &[f64], degree: usize, meridian: &[([f64; 2], f64)]) -> Ind
             weights.push(w * x);
         }
     }
-    let surface = Surface::new(
-        &CIRCLE_KNOTS,
-        knots,
-        2,
-        degree,
-        &poles,
-        9,
-        meridian.len(),
-        Some(&weights),
-    );
+    let surface =
+        Surface::new(&CIRCLE_KNOTS, knots, 2, degree, &poles, 9, meridian.len(), Some(&weights));
     IndexedSurface::new(surface.expect("a surface of revolution"))
 }
 
 /// The sphere around the origin: v from the south pole (0) over the equator (1) to the north pole (2).
 pub fn sphere(radius: f64) -> IndexedSurface {
     let r = 0.5f64.sqrt();
-    let half: Vec<([f64; 2], f64)> = [
-        ([0., -1.], 1.),
-        ([1., -1.], r),
-        ([1., 0.], 1.),
-        ([1., 1.], r),
-        ([0., 1.], 1.),
-    ]
-    .map(|([x, z], w)| ([radius * x, radius * z], w))
-    .to_vec();
+    let half: Vec<([f64; 2], f64)> =
+        [([0., -1.], 1.), ([1., -1.], r), ([1., 0.], 1.), ([1., 1.], r), ([0., 1.], 1.)]
+            .map(|([x, z], w)| ([radius * x, radius * z], w))
+            .to_vec();
     turned(&[0., 0., 0., 1., 1., 2., 2., 2.], 2, &half)
 }
 

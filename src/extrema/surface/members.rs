@@ -50,9 +50,7 @@ impl Search<'_> {
             if self.index.closed[k] && whole { length } else { 0.0 }
         };
         let (du, dv) = (period(0, u1 - u0), period(1, v1 - v0));
-        let moved = |i: f64, j: f64| {
-            [b[0] + i * du, b[1] + i * du, b[2] + j * dv, b[3] + j * dv]
-        };
+        let moved = |i: f64, j: f64| [b[0] + i * du, b[1] + i * du, b[2] + j * dv, b[3] + j * dv];
         let turns = [-1.0, 0.0, 1.0];
         turns.iter().any(|&i| turns.iter().any(|&j| touch(a, &moved(i, j))))
     }
@@ -112,7 +110,9 @@ impl Search<'_> {
         let middle = [0.5 * (area[0] + area[1]), 0.5 * (area[2] + area[3])];
         let mut at = middle;
         let pieces = self.index.around(middle, self.range);
-        if let Some((sheet, mut local)) = pieces.first().and_then(|&(k, x)| Some((self.sheet(k)?, x))) {
+        if let Some((sheet, mut local)) =
+            pieces.first().and_then(|&(k, x)| Some((self.sheet(k)?, x)))
+        {
             for _ in 0..4 {
                 let jet = sheet.jet(local);
                 let step = least_norm_step(jet.hessian(), jet.metric(), jet.gradient());
@@ -201,7 +201,8 @@ impl Search<'_> {
     pub(super) fn collapsed_nature(&self, candidate: &Candidate) -> Option<Nature> {
         let domain = self.shape.surface().domain();
         let edge = (0..4).find(|&k| {
-            self.leaving[k].is_some() && candidate.area[2 * (k / 2)] == domain[k]
+            self.leaving[k].is_some()
+                && candidate.area[2 * (k / 2)] == domain[k]
                 && candidate.area[2 * (k / 2) + 1] == domain[k]
         })?;
         let (low, _, error) = self.leaving[edge]?;
@@ -223,7 +224,8 @@ fn least_norm_step([a, b, c]: [f64; 3], [e, _, g]: [f64; 3], [x, y]: [f64; 2]) -
             continue;
         }
         // An eigenvector of [[a, b], [b, c]].
-        let (r, s) = if (a - value).abs() > (c - value).abs() { (-b, a - value) } else { (c - value, -b) };
+        let (r, s) =
+            if (a - value).abs() > (c - value).abs() { (-b, a - value) } else { (c - value, -b) };
         let size = (r * r + s * s).sqrt();
         if size == 0.0 {
             return [-x / a / p, -y / c / q];
