@@ -11,6 +11,7 @@ use stress::design::Design;
 use stress::exact::Exact;
 use stress::families::FAMILIES;
 use stress::judge::{Fault, Judge};
+use stress::outcome::Outcome;
 use stress::pieces::Pieces;
 use stress::run::Plan;
 use stress::search::{Scratch, Search, square};
@@ -22,22 +23,41 @@ fn queries() -> u64 {
     std::env::var("FOOTPOINT_STRESS").ok().and_then(|n| n.parse().ok()).unwrap_or(27_000)
 }
 
-#[test]
-fn nothing_is_wrong_or_unsound() {
-    let plan = Plan {
+fn plan(queries: u64, sets_every: u64) -> Plan {
+    Plan {
         seed: 20,
-        queries: queries(),
+        queries,
         threads: std::thread::available_parallelism().map_or(2, usize::from),
         family: String::new(),
         examine_every: 7,
         case: None,
         queries_a_case: 25,
-        sets_every: 101,
-    };
-    let outcome = plan.run();
+        sets_every,
+    }
+}
+
+/// The lines about grave faults, with what was found.
+fn grave(outcome: &Outcome) -> String {
+    let faults = ["Wrong", "Unsound", "Mismatch", "Lost"];
+    let lines: Vec<&str> = outcome.report.lines().collect();
+    let is_grave = |line: &&str| faults.iter().any(|fault| line.contains(fault));
+    let first = (0..lines.len()).filter(|k| is_grave(&lines[*k])).take(10);
+    first.map(|k| lines[k..(k + 3).min(lines.len())].join("\n") + "\n").collect()
+}
+
+#[test]
+fn nothing_is_wrong_or_unsound() {
+    let outcome = plan(queries(), u64::MAX).run();
     println!("{}", outcome.table());
-    assert!(outcome.is_clean(), "{}\n{}", outcome.table(), outcome.report);
+    assert!(outcome.is_clean(), "{}\n{}", outcome.table(), grave(&outcome));
     assert!(outcome.total().queries >= queries());
+}
+
+#[test]
+fn preimages_and_extrema_hold_what_is_known_of_them() {
+    let outcome = plan(1_400, 10).run();
+    println!("{}", outcome.table());
+    assert!(outcome.is_clean(), "{}\n{}", outcome.table(), grave(&outcome));
 }
 
 #[test]
