@@ -5,7 +5,7 @@ mod members;
 use super::gradient::{Slope, View};
 use super::nature::Signs;
 use super::{Candidate, ExtremaOptions, Source, flat_limit, is_reachable};
-use crate::bezier::Bidegree;
+use crate::bezier::{Bidegree, cut};
 use crate::bounds::{Vector, extent, norm, sub};
 use crate::closest::{Workspace, local_interval, rounding_floor};
 use crate::error::Error;
@@ -175,6 +175,27 @@ fn snapped(x: f64) -> f64 {
     }
 }
 
+/// Least and greatest value of a polynomial among its ends and one place between any two of its zeros: enough to know
+/// which signs it has.
+fn sampled_extent(coefficients: &[f64], error: f64, budget: &mut u64) -> (f64, f64) {
+    let mut zeros = Vec::new();
+    let is_flat = |low: f64, high: f64, size: f64| size <= 4.0 * error || high - low < 1e-9;
+    zeros_of(coefficients, error, &is_flat, budget, &mut zeros);
+    let mut places = vec![0.0];
+    places.extend(zeros.windows(2).map(|pair| 0.5 * (pair[0].high[0] + pair[1].low[0])));
+    places.extend(zeros.first().map(|zero| 0.5 * zero.low[0]));
+    places.extend(zeros.last().map(|zero| 0.5 * (1.0 + zero.high[0])));
+    places.push(1.0);
+    let value = |x: f64| {
+        let mut c = coefficients.to_vec();
+        let degree = c.len() - 1;
+        cut(&mut c, degree, 1, 1, 0.0, if x > 0.0 { x } else { 1.0 });
+        c[if x > 0.0 { degree } else { 0 }]
+    };
+    let values: Vec<f64> = places.into_iter().map(value).collect();
+    extent(&values)
+}
+
 impl Meaning for Sheet<'_> {
     /// Where a slope was divided by a parameter that vanishes on a collapsed side, that parameter comes back here.
     fn scale(&self, low: [f64; 2], high: [f64; 2]) -> [f64; 2] {
@@ -293,7 +314,7 @@ impl<'a> Search<'a> {
 
     /// Notes how the distance changes along the lines that leave a collapsed side.
     fn leave(&mut self, slope: &Slope, side: usize) {
-        let (low, high) = extent(&slope.on_side(side));
+        let (low, high) = sampled_extent(&slope.on_side(side), slope.error, &mut self.budget);
         let (low, high) = if side % 2 == 0 { (low, high) } else { (-high, -low) };
         let known = self.leaving[side].unwrap_or((f64::INFINITY, f64::NEG_INFINITY, 0.0));
         self.leaving[side] = Some((known.0.min(low), known.1.max(high), known.2.max(slope.error)));
