@@ -94,6 +94,9 @@ struct Candidate {
 enum Source {
     /// The gradient vanishes.
     Inside,
+    /// The gradient vanishes at the end of a piece, perhaps only by the allowance for rounding: where the zero lies
+    /// beyond, the neighbour has it inside.
+    OnEnd,
     /// A collapsed edge.
     Collapsed,
     /// The derivative along a border or crease vanishes, or it is a corner.

@@ -177,7 +177,9 @@ impl<'a> Search<'a> {
         let ends = [zero.low[0], zero.high[0]];
         match zero.found {
             Found::Root => {
-                self.push(line, line.polish(line.local(zero.at[0])), ends, Source::Inside)
+                let s = line.polish(line.local(zero.at[0]));
+                let source = if end_of(s) == 0.0 { Source::Inside } else { Source::OnEnd };
+                self.push(line, s, ends, source);
             }
             Found::Flat => self.push(line, line.local(zero.at[0]), ends, Source::Flat),
             Found::Undecided => {
@@ -250,23 +252,35 @@ impl<'a> Search<'a> {
         norm(sub(self.shape.curve().evaluate(u), self.query))
     }
 
-    fn point_member(&self, candidate: &Candidate) -> Option<Member> {
-        let u = candidate.at[0];
+    /// The signs that the segments around a place tell; where it is `stationary`, those of the second derivatives.
+    fn signs(&self, u: f64, stationary: bool) -> Signs {
         let mut signs = Signs::default();
         for (piece, s) in self.index.around(u, self.range) {
             let Some(line) = self.line(piece) else { continue };
-            let at_end = |end: f64| if u == self.range[0] { 0.0 } else { end };
-            let end = if end_of(s) != 0.0 {
+            let end = if stationary {
+                0.5
+            } else if end_of(s) != 0.0 {
                 s
+            } else if u == self.range[0] {
+                0.0
             } else if u == self.range[1] {
                 1.0
             } else {
-                at_end(s)
+                s
             };
             signs.segment(&line.jet(s), end, line.position);
         }
-        if candidate.source == Source::Border && signs.passes() {
-            return None;
+        signs
+    }
+
+    fn point_member(&self, candidate: &Candidate) -> Option<Member> {
+        let u = candidate.at[0];
+        let mut signs = self.signs(u, false);
+        if signs.passes() {
+            if candidate.source == Source::Border {
+                return None;
+            }
+            signs = self.signs(u, true);
         }
         let mut nature = signs.nature();
         if nature == Nature::Flat {

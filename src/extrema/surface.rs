@@ -3,7 +3,7 @@
 mod members;
 
 use super::gradient::{Slope, View};
-use super::nature::Signs;
+use super::nature::{Signs, end_of};
 use super::{Candidate, ExtremaOptions, Source, flat_limit, is_reachable};
 use crate::bezier::{Bidegree, cut};
 use crate::bounds::{Vector, extent, norm, sub};
@@ -344,7 +344,9 @@ impl<'a> Search<'a> {
                 Found::Undecided => self.give_up(sheet, zero.low, zero.high),
                 Found::Root => {
                     let at = sheet.polish(sheet.local(zero.at));
-                    self.push(sheet, at, &zero, Source::Inside);
+                    let is_on_end = at.iter().any(|&x| end_of(x) != 0.0);
+                    let source = if is_on_end { Source::OnEnd } else { Source::Inside };
+                    self.push(sheet, at, &zero, source);
                 }
                 Found::Flat => self.push(sheet, sheet.local(zero.at), &zero, Source::Flat),
             }
@@ -447,11 +449,17 @@ impl<'a> Search<'a> {
 
     /// The signs that the patches around a place tell.
     fn signs(&self, at: [f64; 2]) -> Signs {
+        self.signs_along(at, [false; 2])
+    }
+
+    /// The same; along the `stationary` parameters the second derivatives count, whatever is left of the first.
+    fn signs_along(&self, at: [f64; 2], stationary: [bool; 2]) -> Signs {
         let mut signs = Signs::default();
         for (piece, local) in self.index.around(at, self.range) {
             let Some(sheet) = self.sheet(piece) else { continue };
-            let local = self.ended(at, local);
-            signs.patch(&sheet.jet(local.0), local.1, sheet.position);
+            let (local, ends) = self.ended(at, local);
+            let ends = [0, 1].map(|k| if stationary[k] { 0.5 } else { ends[k] });
+            signs.patch(&sheet.jet(local), ends, sheet.position);
         }
         signs
     }

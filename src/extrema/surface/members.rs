@@ -63,9 +63,12 @@ impl Search<'_> {
             let nature = self.collapsed_nature(candidate)?;
             return Some(Member { foot, u: [u0, u1], v: [v0, v1], kind, nature });
         }
-        let signs: Signs = self.signs(candidate.at);
-        if candidate.source == Source::Border && signs.passes() {
-            return None;
+        let mut signs: Signs = self.signs(candidate.at);
+        if signs.passes() {
+            if candidate.source == Source::Border {
+                return None;
+            }
+            signs = self.signs_along(candidate.at, signs.passing());
         }
         let mut nature = signs.nature();
         if nature == Nature::Flat {
