@@ -29,6 +29,10 @@ pub mod closest;
 
 pub mod set;
 
+pub mod unwrap;
+
+pub mod normal;
+
 pub mod batch;
 
 mod ffi;
