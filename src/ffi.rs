@@ -8,6 +8,7 @@
 //!   C call -> guard -> arguments (pointers, counts, strides)   memory.rs, limits.rs
 //!                   -> options, records (struct layouts)       options.rs, records.rs
 //!                   -> Curve, Surface, closest, batch          curve.rs, surface.rs, query.rs
+//!                   -> normal, unwrap                          normals.rs, path.rs
 //!          <- fpt_status, text of a failure for fpt_last_error
 //! ```
 //!
@@ -25,6 +26,8 @@ mod records;
 mod curve;
 mod surface;
 mod query;
+mod normals;
+mod path;
 #[cfg(test)]
 mod tests;
 

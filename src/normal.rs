@@ -21,7 +21,8 @@
 //! follows when the surface bounds one.
 //!
 //! *Limits.* Where the derivatives vanish or are parallel, normals are limits from inside each sector: the first term
-//! of `Su x Sv` along three directions that does not vanish; directions that disagree leave the normal undefined.
+//! of `Su x Sv` along three directions that does not vanish. Where they disagree the sector is no flat one; the cone
+//! of its tangents in all directions takes its place. Without tangents the normal is undefined.
 //!
 //! Reference: Baerentzen, Aanaes, *Signed distance computation using the angle weighted pseudonormal*, 2005, for
 //! meshes; the sectors of patches and the cone of a collapsed edge are ours.
@@ -76,6 +77,9 @@ const GRAIN: f64 = 32.0 * f64::EPSILON;
 /// Parameters nearer to a knot than this, in units of the greatest parameter, count as the knot.
 const SNAP: f64 = 4.0 * f64::EPSILON;
 
+/// Nearer to an end of the domain than this share of it, a limit is that of the end.
+const NEAR_END: f64 = 1e-7;
+
 /// How a surface faces at a foot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Facing {
@@ -119,17 +123,6 @@ struct Approach {
     border: bool,
 }
 
-impl Approach {
-    /// Both sides of a parameter at which nothing breaks, one by one.
-    fn split(mut self) -> Self {
-        if !self.halved {
-            let (x, _) = self.from[0];
-            (self.from, self.count, self.halved) = ([(x, Side::Below), (x, Side::Above)], 2, true);
-        }
-        self
-    }
-}
-
 impl<'a> Normals<'a> {
     /// Looks at the borders of the surface.
     pub fn new(surface: &'a Surface) -> Self {
@@ -138,7 +131,7 @@ impl<'a> Normals<'a> {
         let collapsed = surface.collapsed_edges();
         let tips = [0, 1, 2, 3]
             .map(|edge| collapsed[edge].then(|| tip::cone(surface, edge, closed[1 - edge / 2])));
-        let open = |k: usize| !closed[k] && !(collapsed[2 * k] && collapsed[2 * k + 1]);
+        let open = |k: usize| !(closed[k] || collapsed[2 * k] && collapsed[2 * k + 1]);
         let (low, high) = surface.bounding_box();
         let magnitude = low.iter().chain(&high).fold(0.0, |m: f64, x| m.max(x.abs()));
         Self {
@@ -171,7 +164,7 @@ impl<'a> Normals<'a> {
         }
         let Some(r) = r else { return Facing { normal, signed: f64::NAN, flags } };
         let (distance, along) = (norm(r), dot(r, normal));
-        let floor = self.grain + GRAIN * query.map_or(0.0, |q| norm(q));
+        let floor = self.grain + GRAIN * query.map_or(0.0, norm);
         let torn = self.has_border && foot.flags & foot_flag::TIE != 0;
         if folded || torn || is_ambiguous(&fan, normal, r, floor) {
             flags |= flag::AMBIGUOUS_SIDE;
@@ -194,21 +187,28 @@ impl<'a> Normals<'a> {
         if fan.limit {
             return fan;
         }
-        let (u, v) = (self.approach(0, at[0]), self.approach(1, at[1]));
+        let (mut u, mut v) = (self.approach(0, at[0]), self.approach(1, at[1]));
         if !self.collect(&u, &v, &mut fan) {
-            fan = Fan::of_limits(false);
-            let (u, v) = (u.split(), v.split());
-            for (i, j) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
-                if i < u.count && j < v.count {
-                    let corner = Corner::new(self.surface, u.from[i], v.from[j]);
-                    match corner.limit_normal() {
-                        Some(normal) => fan.add(normal, corner.limit_angle()),
-                        None => fan.undefined = true,
-                    }
+            (u, v) = (self.split(0, u), self.split(1, v));
+            fan = self.limits(&u, &v);
+        }
+        fan.open = u.border || v.border;
+        fan
+    }
+
+    /// The sectors of a place where derivatives do not give all normals.
+    fn limits(&self, u: &Approach, v: &Approach) -> Fan {
+        let mut fan = Fan::of_limits(false);
+        for &u_side in &u.from[..u.count] {
+            for &v_side in &v.from[..v.count] {
+                let corner = Corner::new(self.surface, u_side, v_side);
+                match corner.limit_normal() {
+                    Some(normal) => fan.add(normal, corner.limit_angle()),
+                    None if corner.add_cone(&mut fan) => fan.bent = true,
+                    None => fan.undefined = true,
                 }
             }
         }
-        fan.open = u.border || v.border;
         fan
     }
 
@@ -224,6 +224,28 @@ impl<'a> Normals<'a> {
             }
         }
         true
+    }
+
+    /// Both sides of a parameter at which no knot breaks, one by one. So near to an end of the domain that the
+    /// limit is that of the end, the end itself.
+    fn split(&self, k: usize, approach: Approach) -> Approach {
+        if approach.halved {
+            return approach;
+        }
+        let ([low, high], (x, _)) = (self.ends[k], approach.from[0]);
+        let near = NEAR_END * (high - low);
+        if x - low <= near {
+            return self.approach(k, low);
+        }
+        if high - x <= near {
+            return self.approach(k, high);
+        }
+        Approach {
+            from: [(x, Side::Below), (x, Side::Above)],
+            count: 2,
+            halved: true,
+            border: false,
+        }
     }
 
     fn snap(&self, k: usize) -> f64 {

@@ -120,7 +120,7 @@ pub unsafe extern "C" fn fpt_surface_invert(
 }
 
 /// What a batch needs of a shape with `N` parameters.
-trait Shape<const N: usize>: Sync {
+pub(super) trait Shape<const N: usize>: Sync {
     /// Start and end of each parameter.
     fn ends(&self) -> [[f64; 2]; N];
     fn check_restriction(&self, domain: [f64; 4]) -> Result<(), Error>;
@@ -158,7 +158,7 @@ impl Shape<2> for IndexedSurface {
 }
 
 /// One operation on one query point.
-type Ask<S, const N: usize> = fn(
+pub(super) type Ask<S, const N: usize> = fn(
     &S,
     [f64; 3],
     Option<[f64; N]>,
@@ -168,16 +168,16 @@ type Ask<S, const N: usize> = fn(
 ) -> FootPoint;
 
 /// The checked arguments of one call.
-struct Batch<'a, S, const N: usize> {
-    shape: &'a S,
-    points: Strided<'a, 3>,
+pub(super) struct Batch<'a, S, const N: usize> {
+    pub(super) shape: &'a S,
+    pub(super) points: Strided<'a, 3>,
     hints: Option<Strided<'a, N>>,
     /// Start and end of each parameter, restricted: where hints are moved to.
     ends: [[f64; 2]; N],
-    options: QueryOptions,
+    pub(super) options: QueryOptions,
     threads: usize,
-    callbacks: Callbacks,
-    out: &'a mut [FootPoint],
+    pub(super) callbacks: Callbacks,
+    pub(super) out: &'a mut [FootPoint],
 }
 
 impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
@@ -185,7 +185,7 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
     ///
     /// # Safety
     /// Pointers that are not NULL point to what the header asks for, for as long as the call lasts.
-    unsafe fn read(
+    pub(super) unsafe fn read(
         shape: &'a S,
         points: *const f64,
         count: usize,
@@ -212,7 +212,17 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
         }
     }
 
-    fn run(self, ask: Ask<S, N>) -> Result<(), Failure> {
+    fn run(mut self, ask: Ask<S, N>) -> Result<(), Failure> {
+        self.answer(ask)?;
+        let total = self.out.len();
+        if total > 0 {
+            self.callbacks.report(total, total);
+        }
+        Ok(())
+    }
+
+    /// Answers every query; the caller's last report is still to come.
+    pub(super) fn answer(&mut self, ask: Ask<S, N>) -> Result<(), Failure> {
         let Self { shape, points, hints, ends, options, threads, callbacks, out } = self;
         let total = out.len();
         if total == 0 {
@@ -224,15 +234,13 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
         }
         built?;
         let work = |i: usize, workspace: &mut Workspace| {
-            let hint = hints.and_then(|hints| hint(hints.row(i), ends));
+            let hint = hints.as_ref().and_then(|hints| hint(hints.row(i), *ends));
             let mut told = |step, u, v, residual| callbacks.trace(i, step, [u, v], residual);
             let trace: Option<Trace<'_>> =
                 if callbacks.trace.is_some() { Some(&mut told) } else { None };
-            ask(shape, points.row(i), hint, &options, workspace, trace)
+            ask(shape, points.row(i), hint, options, workspace, trace)
         };
-        batch::run(out, threads, &work, &mut |done| callbacks.poll(done, total))?;
-        callbacks.report(total, total);
-        Ok(())
+        Ok(batch::run(out, *threads, &work, &mut |done| callbacks.poll(done, total))?)
     }
 }
 
@@ -266,7 +274,7 @@ type Progress = unsafe extern "C" fn(*mut c_void, usize, usize);
 type TraceStep = unsafe extern "C" fn(*mut c_void, usize, u32, f64, f64, f64);
 
 /// The caller's functions and what they are handed.
-struct Callbacks {
+pub(super) struct Callbacks {
     should_stop: Option<ShouldStop>,
     progress: Option<Progress>,
     trace: Option<TraceStep>,
@@ -284,13 +292,13 @@ impl Callbacks {
     }
 
     /// Tells how far the call is and asks whether to stop.
-    fn poll(&self, done: usize, total: usize) -> bool {
+    pub(super) fn poll(&self, done: usize, total: usize) -> bool {
         self.report(done, total);
         // SAFETY: the header asks for functions that take this `user` and do not unwind.
         self.should_stop.is_some_and(|should_stop| unsafe { should_stop(self.user) } != 0)
     }
 
-    fn report(&self, done: usize, total: usize) {
+    pub(super) fn report(&self, done: usize, total: usize) {
         if let Some(progress) = self.progress {
             // SAFETY: as in `poll`.
             unsafe { progress(self.user, done, total) }

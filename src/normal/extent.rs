@@ -13,7 +13,7 @@
 //! the point has moved too far; the last factor is bisected. Right within a factor of two; an excursion that begins
 //! and ends between two samples is missed.
 //!
-//! Limit: below the rounding of positions the answer is that of the rounding.
+//! Limit: below the rounding of positions, and below the gap between parameters, the answer is that of the rounding.
 
 use crate::bounds::{Vector, dot, norm, sub};
 use crate::closest::FootPoint;
@@ -23,8 +23,9 @@ use crate::knots::Side;
 use crate::refine::{CurveJets, Method, foot_on_curve};
 use crate::surface::Surface;
 
-/// The move of a point that confirms an ellipse, as shares of the accuracy.
-const CONFIRMED: std::ops::RangeInclusive<f64> = 0.6..=1.6;
+/// The move of a point that confirms an ellipse, as shares of the accuracy: so near to 1 that at twice the step the
+/// point has left.
+const CONFIRMED: std::ops::RangeInclusive<f64> = 0.85..=1.2;
 
 /// First step of a search, as a share of the room.
 const FIRST: f64 = 1.0 / 4_503_599_627_370_496.0;
@@ -56,7 +57,7 @@ pub fn of_curve(curve: &Curve, closed: bool, foot: &FootPoint, accuracy: f64) ->
         if step <= room && CONFIRMED.contains(&(far(step) / accuracy)) {
             return step;
         }
-        grown(room, accuracy, far)
+        grown(room, step, accuracy, far)
     };
     way(-1.0, Side::Below).max(way(1.0, Side::Above))
 }
@@ -115,9 +116,10 @@ impl Range {
     }
 }
 
-/// The greatest step up to `room` that moves the point by at most `accuracy`, by growing samples.
-fn grown(room: f64, accuracy: f64, mut far: impl FnMut(f64) -> f64) -> f64 {
-    let (mut inside, mut step) = (0.0, FIRST * room);
+/// The greatest step up to `room` that moves the point by at most `accuracy`, by growing samples; `linear`: what the first
+/// derivative says.
+fn grown(room: f64, linear: f64, accuracy: f64, mut far: impl FnMut(f64) -> f64) -> f64 {
+    let (mut inside, mut step) = (0.0, (FIRST * room).min(0.25 * linear));
     while far(step) <= accuracy {
         if step >= room {
             return room;
@@ -188,6 +190,9 @@ impl Around<'_> {
 
     /// The extent in direction `k`, by growing steps with the other parameter in the valley.
     fn search(&self, k: usize) -> f64 {
+        let mut jet = [[0.0; 3]; 3];
+        self.surface.partials(self.at[0], self.at[1], 1, &mut jet);
+        let linear = self.accuracy / norm(jet[1 + k]);
         let way = |sign: f64| {
             let mut valley = Valley { around: self, fixed: k, value: self.at[k] };
             let other = self.ranges[1 - k];
@@ -198,7 +203,8 @@ impl Around<'_> {
                 other.ends
             };
             let mut start = self.at[1 - k];
-            grown(self.ranges[k].room(self.at[k], sign), self.accuracy, |step| {
+            let room = self.ranges[k].room(self.at[k], sign);
+            grown(room, linear, self.accuracy, |step| {
                 valley.value = self.ranges[k].moved(self.at[k], step, sign);
                 let stay = norm(valley.jet(self.at[1 - k]).d);
                 if stay <= self.accuracy {

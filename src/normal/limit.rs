@@ -8,7 +8,7 @@
 //!
 //! The first N that is not rounding gives the direction of the normal's limit along (a, b).
 
-use super::fan::{angle, differ, unit};
+use super::fan::{Fan, angle, differ, unit};
 use crate::bounds::{Vector, add, cross, norm, scaled, sub};
 use crate::knots::{Knots, Side};
 use crate::surface::Surface;
@@ -25,6 +25,10 @@ const LEAST_SINE: f64 = 1e-9;
 
 /// Directions into the sector that must agree about the limit.
 const DIRECTIONS: [[f64; 2]; 3] = [[1.0, 1.0], [1.0, 0.25], [0.25, 1.0]];
+
+/// Steps over the directions of a sector without a normal, and the least angle between two that counts.
+const CONE: u32 = 16;
+const LEAST_CONE: f64 = 1e-9;
 
 /// The step into the sector, in spans, where no derivative tells.
 const STEP: f64 = 1.0 / 1024.0;
@@ -115,9 +119,40 @@ impl<'a> Corner<'a> {
     }
 
     fn tangent_of(&self, taylor: &[Vector; COUNT], k: usize) -> Option<Vector> {
+        self.tangent_along(taylor, if k == 0 { [1.0, 0.0] } else { [0.0, 1.0] })
+    }
+
+    /// Adds the cone of the tangents that leave the place in all directions of the sector; false when there is none.
+    ///
+    /// Where every direction has another normal, this still is how the sector looks from very near.
+    pub fn add_cone(&self, fan: &mut Fan) -> bool {
+        let taylor = self.taylor();
+        let (mut before, mut found): (Option<Vector>, bool) = (None, false);
+        for k in 0..=CONE {
+            let share = f64::from(k) / f64::from(CONE);
+            let Some(tangent) = self.tangent_along(&taylor, [1.0 - share, share]) else { continue };
+            if let Some((last, normal)) =
+                before.and_then(|last| Some((last, unit(cross(last, tangent))?)))
+            {
+                let step = angle(last, tangent);
+                if step > LEAST_CONE {
+                    fan.add(self.outward(normal), step);
+                    found = true;
+                }
+            }
+            before = Some(tangent);
+        }
+        found
+    }
+
+    /// The unit tangent of the first term along `(a, b)` that is not rounding.
+    fn tangent_along(&self, taylor: &[Vector; COUNT], [a, b]: [f64; 2]) -> Option<Vector> {
         let mut least = LEAST_SPEED * self.size;
         for order in 1..=ORDER {
-            let term = taylor[if k == 0 { place(order, 0) } else { place(0, order) }];
+            let term = (0..=order).fold([0.0; 3], |sum, l| {
+                let share = power(a, order - l) * power(b, l);
+                add(sum, scaled(taylor[place(order - l, l)], share))
+            });
             if norm(term) > least {
                 return unit(term);
             }
@@ -220,5 +255,9 @@ mod tests {
         let surface = Surface::new(&LINE, &PARABOLA, 1, 2, &poles, 2, 3, None).unwrap();
         let corner = Corner::new(&surface, (0.0, Side::Above), (0.0, Side::Above));
         assert!(corner.regular().is_none() && corner.limit_normal().is_none());
+        // Seen from very near it is the quarter plane between the axes of y and z.
+        let mut fan = Fan::default();
+        assert!(corner.add_cone(&mut fan));
+        assert_eq!(fan.direction(), Some(([1.0, 0.0, 0.0], false)));
     }
 }

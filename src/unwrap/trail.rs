@@ -2,6 +2,7 @@
 //!
 //! ```text
 //!   plausible?   the foot moved about as far as its query, and its parameters as far as the metric says     -> goes on
+//!   tied?        as when not plausible, but never a jump
 //!   followed     the foot before is iterated to the next query, at once or in 32 steps of the query;
 //!                where that ends as near as the nearest foot, it is the one that goes on                    -> goes on
 //!   otherwise    the nearest foot lies on another branch                                                    -> JUMP
@@ -76,10 +77,14 @@ impl<G: Ground> Trail<'_, G> {
 
     /// The next foot: the nearest one, or one as near that goes on from the one before.
     pub fn advance(&mut self, before: &Stand, query: Vector, foot: FootPoint) -> (Stand, u32) {
-        let foot = self.with_free_parameter(before, query, foot);
+        let asked = foot;
+        let foot = self.with_free_parameters(before, query, asked);
+        let kept = (foot.u, foot.v) != (asked.u, asked.v);
         let (mut next, mut marks) = (self.stand(before, query, foot), 0);
         let passed = self.passes_tip(before, &next);
-        if !passed && !self.is_plausible(before, &next) {
+        let plausible = passed || self.is_plausible(before, &next);
+        let tied = foot.flags & flag::TIE != 0 && !kept;
+        if !plausible || tied && !passed {
             match self.follow(before, &next) {
                 Some(followed) => {
                     if followed.foot.u != foot.u || followed.foot.v != foot.v {
@@ -87,6 +92,7 @@ impl<G: Ground> Trail<'_, G> {
                     }
                     next = followed;
                 }
+                None if plausible => {}
                 None => marks |= change::JUMP,
             }
         }
@@ -127,24 +133,43 @@ impl<G: Ground> Trail<'_, G> {
         (0..4).find(|&edge| tips[edge].is_some() && at[edge / 2] == ends[edge / 2][edge % 2])
     }
 
-    /// On a collapsed edge the parameter along it is free: it stays what it was.
-    fn with_free_parameter(&self, before: &Stand, query: Vector, foot: FootPoint) -> FootPoint {
-        let Some(edge) = self.edge_of(&foot) else { return foot };
-        let (free, ends) = (1 - edge / 2, self.ground.ends());
-        let mut at = [foot.u, foot.v];
-        at[free] = [before.foot.u, before.foot.v][free];
+    /// On a collapsed edge the parameter along it is free, in a continuum of feet sometimes one or both: they stay what they
+    /// were.
+    fn with_free_parameters(&self, before: &Stand, query: Vector, foot: FootPoint) -> FootPoint {
+        let (old, new) = ([before.foot.u, before.foot.v], [foot.u, foot.v]);
+        let kept = match self.edge_of(&foot) {
+            Some(edge) if edge < 2 => [Some([new[0], old[1]]), None, None],
+            Some(_) => [Some([old[0], new[1]]), None, None],
+            None if foot.flags & flag::CONTINUUM != 0 => {
+                [Some(old), Some([old[0], new[1]]), Some([new[0], old[1]])]
+            }
+            None => return foot,
+        };
+        let mut placed = kept.into_iter().flatten().map(|at| self.placed(at, query, &foot));
+        placed.find(|kept| self.is_as_near(kept, &foot, query)).unwrap_or(foot)
+    }
+
+    /// The record of the nearest foot at other parameters.
+    fn placed(&self, at: [f64; 2], query: Vector, nearest: &FootPoint) -> FootPoint {
         let point = self.ground.point(at);
         let distance = norm(sub(query, point));
-        let kept = FootPoint { u: at[0], v: at[1], point, distance, ..foot };
-        if !self.is_as_near(&kept, &foot, query) {
-            return foot;
+        let (ends, closed) = (self.ground.ends(), self.ground.closed());
+        let on = [0, 1].map(|k| at[k] == ends[k][0] || at[k] == ends[k][1]);
+        let mut flags = nearest.flags & !(PLACE ^ flag::CREASE);
+        for (is, bit) in [
+            (on[0] || on[1], flag::EDGE),
+            (on[0] && on[1], flag::CORNER),
+            (on[0] && closed[0] || on[1] && closed[1], flag::SEAM),
+        ] {
+            flags |= if is { bit } else { 0 };
         }
-        let mut flags = foot.flags & !(flag::CORNER | flag::SEAM);
-        if at[free] == ends[free][0] || at[free] == ends[free][1] {
-            let seam = if self.ground.closed()[free] { flag::SEAM } else { 0 };
-            flags |= flag::CORNER | seam;
+        let lower_bound = nearest.lower_bound.min(distance);
+        let mut foot =
+            FootPoint { u: at[0], v: at[1], point, distance, lower_bound, flags, ..*nearest };
+        if self.edge_of(&foot).is_some() {
+            foot.flags |= flag::COLLAPSED;
         }
-        FootPoint { flags, lower_bound: foot.lower_bound.min(distance), ..kept }
+        foot
     }
 
     /// Whether a foot is as near as the nearest one can be told to be.
