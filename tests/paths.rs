@@ -283,9 +283,10 @@ fn through_the_queries_of_all_cases_a_path_has_the_distances_asked_alone() {
         let mut points: Vec<Vector> =
             case.rows.iter().step_by(7).take(60).map(|r| r.query).collect();
         let (a, b) = (points[0], points[1]);
+        let truths: Vec<_> = case.rows.iter().step_by(7).take(60).collect();
         points
             .extend((0..60).map(|i| [0, 1, 2].map(|k| a[k] + (b[k] - a[k]) * f64::from(i) / 59.0)));
-        let scale = 1e-9 * case.diagonal;
+        let scale = 1e-9 * case.diagonal + 4e-15 * case.magnitude;
         let (alone, feet, changes) = match &case.shape {
             cases::Shape::Surface(surface) => {
                 let path = joined_surface(surface, &points);
@@ -306,6 +307,10 @@ fn through_the_queries_of_all_cases_a_path_has_the_distances_asked_alone() {
                 case.name
             );
             assert!(foot.distance >= alone.lower_bound);
+            if let Some(row) = truths.get(i) {
+                let most = row.distance + scale + 4e-15 * row.distance;
+                assert!(foot.distance <= most, "{} {} {foot:?}", case.name, row.class);
+            }
             assert_eq!(foot.distance, norm(sub(points[i], foot.point)));
         }
     }
