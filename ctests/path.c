@@ -59,6 +59,10 @@ static void three_turns_round_a_circle_go_on_counting(void) {
     CHECK_OK(fpt_curve_path(circle, points, STEPS, NULL, alone, NULL, NULL));
     CHECK_SAME_BITS(alone, feet, sizeof feet);
     CHECK_OK(fpt_curve_path(circle, NULL, 0, NULL, NULL, NULL, NULL));
+    fpt_query_options options = default_options();
+    options.threads = 1;
+    CHECK_OK(fpt_curve_path(circle, points, STEPS, &options, alone, NULL, NULL));
+    CHECK_SAME_BITS(alone, feet, sizeof feet);
     fpt_curve_free(circle);
 }
 

@@ -17,7 +17,7 @@
  *           no alignment. An array of no elements may be NULL. Outputs must not overlap inputs.
  *           FPT_INVALID_ARGUMENT is returned for counts whose product overflows.
  * Numbers   NaN, infinity and (for knots, poles and weights) anything beyond 1e100 are refused in every
- *           array but query points (the record is marked) and hints (NaN: no hint).
+ *           array but query points (the record is marked), hints (NaN: no hint) and feet (NaN: no foot).
  * Ownership Inputs are copied. Handles belong to the caller and are released by the matching _free, in
  *           any order; _free(NULL) does nothing.
  * Threads   Handles never change after _new. A function that takes a handle as const may run on any

@@ -42,6 +42,8 @@ mod extent;
 pub use extent::{of_curve, of_surface};
 pub use tangent::Tangents;
 
+use std::sync::OnceLock;
+
 use crate::bounds::{Vector, dot, norm, scaled, sub};
 use crate::closest::{FootPoint, flag as foot_flag};
 use crate::knots::{Knots, Side};
@@ -106,8 +108,9 @@ pub struct Normals<'a> {
     surface: &'a Surface,
     ends: [[f64; 2]; 2],
     closed: [bool; 2],
-    /// The cones of the collapsed edges u0, u1, v0, v1.
-    tips: [Option<Fan>; 4],
+    /// Whether the edges u0, u1, v0, v1 are collapsed, and their cones, made when a foot lies on them.
+    collapsed: [bool; 4],
+    tips: [OnceLock<Fan>; 4],
     /// Whether some edge is neither a seam nor collapsed.
     has_border: bool,
     grain: f64,
@@ -129,8 +132,6 @@ impl<'a> Normals<'a> {
         let [u0, u1, v0, v1] = surface.domain();
         let closed = [surface.is_closed_u(), surface.is_closed_v()];
         let collapsed = surface.collapsed_edges();
-        let tips = [0, 1, 2, 3]
-            .map(|edge| collapsed[edge].then(|| tip::cone(surface, edge, closed[1 - edge / 2])));
         let open = |k: usize| !(closed[k] || collapsed[2 * k] && collapsed[2 * k + 1]);
         let (low, high) = surface.bounding_box();
         let magnitude = low.iter().chain(&high).fold(0.0, |m: f64, x| m.max(x.abs()));
@@ -138,7 +139,8 @@ impl<'a> Normals<'a> {
             surface,
             ends: [[u0, u1], [v0, v1]],
             closed,
-            tips,
+            collapsed,
+            tips: Default::default(),
             has_border: open(0) || open(1),
             grain: GRAIN * magnitude,
         }
@@ -177,11 +179,10 @@ impl<'a> Normals<'a> {
     fn fan(&self, at: [f64; 2]) -> Fan {
         let mut fan = Fan::default();
         for edge in 0..4 {
-            let end = self.ends[edge / 2][edge % 2];
-            if let Some(tip) = &self.tips[edge] {
-                if (at[edge / 2] - end).abs() <= self.snap(edge / 2) {
-                    fan.merge(tip);
-                }
+            let (k, end) = (edge / 2, self.ends[edge / 2][edge % 2]);
+            if self.collapsed[edge] && (at[k] - end).abs() <= self.snap(k) {
+                let cone = || tip::cone(self.surface, edge, self.closed[1 - k]);
+                fan.merge(self.tips[edge].get_or_init(cone));
             }
         }
         if fan.limit {

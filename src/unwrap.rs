@@ -10,6 +10,10 @@
 //!
 //! Limits: a step of half a turn or more is not known from a step the other way round; a path must be sampled finer.
 
+mod cells;
+
+mod ground;
+
 mod path;
 
 pub use path::{PathOutput, Poll};

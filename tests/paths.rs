@@ -316,3 +316,77 @@ fn through_the_queries_of_all_cases_a_path_has_the_distances_asked_alone() {
     }
     println!("{steps} steps, {jumped} jumps, {tied} other feet as near");
 }
+
+/// The nearest point of a convex solid moves no farther than its query: outside nothing jumps.
+#[test]
+fn outside_convex_solids_no_walk_jumps() {
+    let square = [[-1., -1.], [1., -1.], [1., 1.], [-1., 1.]];
+    let flat = [[0., -1.], [1., -1.], [1., 1.], [0., 1.]];
+    let shapes: [(IndexedSurface, &dyn Fn(Vector) -> f64); 5] = [
+        // Not convex, but near the tube the nearest point is unique too; it moves up to five times as far.
+        (torus(), &|p| 0.4 - ((p[0].hypot(p[1]) - 2.0).hypot(p[2]) - 0.5).abs()),
+        (sphere([0.0, 4.0]), &|p| norm(p) - 1.0),
+        (prism(&square, [0.3, -0.2], 1.0), &|p| prism_distance(&square, 1.0, p)),
+        (turned_polygon(&flat), &|p| turned_distance(&flat, p)),
+        (turned_polygon(&[[0., -1.], [1., -1.], [0., 1.]]), &|p| {
+            turned_distance(&[[0., -1.], [1., -1.], [0., 1.]], p)
+        }),
+    ];
+    let mut random = Random(5);
+    for (k, (shape, distance)) in shapes.iter().enumerate() {
+        for reach in [1e-3, 0.02, 0.2, 1.0] {
+            let mut at = if k == 0 { [2.3, 0.3, 0.2] } else { [0.4, 0.3, 1.7] };
+            let mut walk = vec![at];
+            while walk.len() < 3000 {
+                let step = random.point(reach);
+                let next = [0, 1, 2].map(|k| (at[k] + step[k]).clamp(-2.5, 2.5));
+                // The way there must not lead through the solid.
+                let on_the_way =
+                    |i: i32| [0, 1, 2].map(|k| at[k] + (next[k] - at[k]) * f64::from(i) / 40.0);
+                if (1..=40).all(|i| distance(on_the_way(i)) > 0.0) {
+                    at = next;
+                    walk.push(at);
+                }
+            }
+            let path = on_surface(shape, &walk);
+            let jumps = jumps(&path);
+            for i in jumps.iter().take(3) {
+                println!(
+                    "{k} {reach} {:?} {:?}\n {:?} {:?}\n {:?}",
+                    walk[i - 1],
+                    path.feet[i - 1],
+                    walk[*i],
+                    path.feet[*i],
+                    path.alone[*i]
+                );
+            }
+            assert!(jumps.is_empty(), "shape {k}, steps {reach}: {} jumps", jumps.len());
+        }
+    }
+}
+
+/// Without a jump the foot moves at most 16 times as far as its query.
+#[test]
+fn without_a_jump_a_foot_does_not_rush() {
+    let angle = [[0., 0.], [2., 0.], [2., 1.], [1., 1.], [1., 2.], [0., 2.]];
+    let shapes = [torus(), prism(&angle, [0.5; 2], 1.0), cylinder([0.0, 4.0])];
+    let mut random = Random(11);
+    for shape in &shapes {
+        for reach in [0.01, 0.1] {
+            let mut at = [0.3, 0.2, 0.1];
+            let walk: Vec<Vector> = (0..3000)
+                .map(|_| {
+                    let step = random.point(reach);
+                    at = [0, 1, 2].map(|k| (at[k] + step[k]).clamp(-3.0, 3.0));
+                    at
+                })
+                .collect();
+            let path = on_surface(shape, &walk);
+            for i in 1..walk.len() {
+                let moved = norm(sub(path.feet[i].point, path.feet[i - 1].point));
+                let most = 16.0 * norm(sub(walk[i], walk[i - 1])) + 1e-4;
+                assert!(moved <= most || path.changes[i] & change::JUMP != 0, "{i}");
+            }
+        }
+    }
+}

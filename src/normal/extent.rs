@@ -119,7 +119,7 @@ impl Range {
 /// The greatest step up to `room` that moves the point by at most `accuracy`, by growing samples; `linear`: what the first
 /// derivative says.
 fn grown(room: f64, linear: f64, accuracy: f64, mut far: impl FnMut(f64) -> f64) -> f64 {
-    let (mut inside, mut step) = (0.0, (FIRST * room).min(0.25 * linear));
+    let (mut inside, mut step) = (0.0, (FIRST * room).min(0.25 * linear).max(f64::MIN_POSITIVE));
     while far(step) <= accuracy {
         if step >= room {
             return room;
@@ -268,6 +268,8 @@ mod tests {
         // At 1/2 the speed is (1, 3/4).
         assert!((at(0.5, 1e-6) * 1.25e6 - 1.0).abs() < 1e-3);
         assert_eq!(at(0.5, 100.0), 1.5);
+        // Below the grain of the parameters.
+        assert!(at(0.5, 1e-320) < 1e-15 && at(0.0, 1e-320) < 1e-100);
     }
 
     #[test]

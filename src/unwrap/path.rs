@@ -1,10 +1,16 @@
 //! Feet of a polyline of points, joined to a path.
 
-use super::trail::{Ground, Stand, Trail};
-use crate::bounds::Vector;
+use super::ground::Ground;
+use super::trail::{Stand, Trail};
+use crate::bounds::{Vector, norm, sub};
 use crate::closest::{FootPoint, QueryOptions, Scope, Workspace, rounding_floor};
+use crate::curve::Curve;
 use crate::error::Error;
 use crate::index::{CurveIndex, IndexedCurve, IndexedSurface, SurfaceIndex};
+use crate::jet::{Jet1, Jet2};
+use crate::knots::{Knots, Side};
+use crate::refine::{CurveJets, SurfaceJets, foot_on_curve, foot_on_surface};
+use crate::surface::Surface;
 
 /// Points between two questions whether to stop.
 const POLLED: usize = 64;
@@ -150,9 +156,75 @@ impl Ground for CurveGround<'_> {
         self.curve.closest(query, Some(start[0]), &self.local, &mut self.workspace, None)
     }
 
+    fn local_in(&self, query: Vector, start: [f64; 2], cell: [f64; 4]) -> ([f64; 2], f64) {
+        let cell = cut(cell, self.local.domain);
+        let sided = SidedCurve { curve: self.curve.curve(), query, high: cell[1] };
+        let (u, jet, _) =
+            foot_on_curve(&sided, start[0], [cell[0], cell[1]], self.local.method, None);
+        ([u, 0.0], norm(jet.d))
+    }
+
+    fn knots(&self, k: usize) -> Option<&Knots> {
+        (k == 0).then(|| self.curve.curve().knots())
+    }
+
     fn allowed(&self, query: Vector) -> f64 {
         allowed(&self.local, &self.index.frame, query)
     }
+}
+
+/// A curve whose upper end of a cell belongs to the cell.
+struct SidedCurve<'a> {
+    curve: &'a Curve,
+    query: Vector,
+    high: f64,
+}
+
+impl CurveJets for SidedCurve<'_> {
+    fn jet(&self, s: f64) -> Jet1 {
+        let mut out = [[0.0; 3]; 3];
+        self.curve.derivatives_on(s, side_at(s, self.high), 2, &mut out);
+        Jet1 { d: sub(out[0], self.query), s: out[1], ss: out[2], w: [1.0, 0.0] }
+    }
+
+    fn global(&self, s: f64) -> [f64; 2] {
+        [s, 0.0]
+    }
+}
+
+/// A surface whose upper sides of a cell belong to the cell.
+struct SidedSurface<'a> {
+    surface: &'a Surface,
+    query: Vector,
+    high: [f64; 2],
+}
+
+impl SurfaceJets for SidedSurface<'_> {
+    fn jet(&self, s: f64, t: f64) -> Jet2 {
+        let mut out = [[0.0; 3]; 6];
+        let sides = [side_at(s, self.high[0]), side_at(t, self.high[1])];
+        self.surface.partials_on([s, t], sides, 2, &mut out);
+        let [point, s, t, ss, st, tt] = out;
+        Jet2 { d: sub(point, self.query), s, t, ss, st, tt, w: [1.0, 0.0, 0.0] }
+    }
+
+    fn global(&self, s: f64, t: f64) -> [f64; 2] {
+        [s, t]
+    }
+}
+
+fn side_at(x: f64, high: f64) -> Side {
+    if x >= high { Side::Below } else { Side::Above }
+}
+
+/// The part of a cell that a restriction leaves; where it leaves nothing, a point of the restriction.
+fn cut(cell: [f64; 4], domain: Option<[f64; 4]>) -> [f64; 4] {
+    let Some(d) = domain else { return cell };
+    [0, 1, 2, 3].map(|i| {
+        let [low, high] = [d[i / 2 * 2], d[i / 2 * 2 + 1]];
+        // Curves have no second interval.
+        if low < high { cell[i].clamp(low, high) } else { cell[i] }
+    })
 }
 
 struct SurfaceGround<'a> {
@@ -193,6 +265,19 @@ impl Ground for SurfaceGround<'_> {
 
     fn local(&mut self, query: Vector, start: [f64; 2]) -> FootPoint {
         self.surface.closest(query, Some(start), &self.local, &mut self.workspace, None)
+    }
+
+    fn local_in(&self, query: Vector, start: [f64; 2], cell: [f64; 4]) -> ([f64; 2], f64) {
+        let cell = cut(cell, self.local.domain);
+        let surface = self.surface.surface();
+        let sided = SidedSurface { surface, query, high: [cell[1], cell[3]] };
+        let (at, jet, _) = foot_on_surface(&sided, start, cell, self.local.method, None);
+        (at, norm(jet.d))
+    }
+
+    fn knots(&self, k: usize) -> Option<&Knots> {
+        let surface = self.surface.surface();
+        Some([surface.knots_u(), surface.knots_v()][k])
     }
 
     fn allowed(&self, query: Vector) -> f64 {

@@ -8,6 +8,8 @@
 //!   otherwise    the nearest foot lies on another branch                                                    -> JUMP
 //! ```
 
+use super::cells::{descend, is_plain};
+use super::ground::Ground;
 use super::{change, turned, turns};
 use crate::bounds::{Vector, add, dot, norm, scaled, sub};
 use crate::closest::{FootPoint, flag};
@@ -26,31 +28,8 @@ const SAME: f64 = 1e-6;
 /// A step passes a collapsed edge when its middle part comes nearer to it than this share of the step.
 const PASSING: f64 = 0.25;
 
-/// How often an iteration is taken across a seam.
-const MOST_SEAMS: usize = 3;
-
 /// The flags that belong to the place of a foot.
 const PLACE: u32 = flag::EDGE | flag::CORNER | flag::SEAM | flag::COLLAPSED | flag::CREASE;
-
-/// What a path needs of a shape; a curve has a second parameter without extent.
-pub trait Ground {
-    /// Start and end of each parameter.
-    fn ends(&self) -> [[f64; 2]; 2];
-    /// Closed directions.
-    fn closed(&self) -> [bool; 2];
-    /// The points of the collapsed edges u0, u1, v0, v1.
-    fn tips(&self) -> [Option<Vector>; 4];
-    /// Diagonal of the box.
-    fn diagonal(&self) -> f64;
-    /// First derivatives.
-    fn frame(&self, at: [f64; 2]) -> [Vector; 2];
-    /// The point.
-    fn point(&self, at: [f64; 2]) -> Vector;
-    /// The foot that the local iteration finds from a start.
-    fn local(&mut self, query: Vector, start: [f64; 2]) -> FootPoint;
-    /// The gap between distance and bound that a proven answer may have.
-    fn allowed(&self, query: Vector) -> f64;
-}
 
 /// A foot on the path, with its query.
 #[derive(Clone, Copy)]
@@ -284,28 +263,19 @@ impl<G: Ground> Trail<'_, G> {
         Some(Stand { foot, ..found })
     }
 
-    /// The local iteration from a foot, across seams.
+    /// The local iteration from a foot, across seams and breaks.
     fn iterate(&mut self, from: &Stand, query: Vector) -> Stand {
-        let (ends, closed) = (self.ground.ends(), self.ground.closed());
-        let mut best = self.ground.local(query, [from.foot.u, from.foot.v]);
-        for _ in 0..MOST_SEAMS {
-            let mut start = [best.u, best.v];
-            let mut on_seam = false;
-            for k in 0..2 {
-                if closed[k] && (start[k] == ends[k][0] || start[k] == ends[k][1]) {
-                    start[k] = if start[k] == ends[k][0] { ends[k][1] } else { ends[k][0] };
-                    on_seam = true;
-                }
-            }
-            if !on_seam {
-                break;
-            }
-            let other = self.ground.local(query, start);
-            if other.distance.is_nan() || other.distance >= best.distance {
-                break;
-            }
-            best = other;
+        let start = [from.foot.u, from.foot.v];
+        let foot = self.ground.local(query, start);
+        if is_plain(self.ground) {
+            return self.stand(from, query, foot);
         }
-        self.stand(from, query, best)
+        let (at, distance) = descend(self.ground, query, start);
+        // Once more as a whole, for the record of the place.
+        let whole = self.ground.local(query, at);
+        let near = norm(sub(whole.point, self.ground.point(at))) <= SAME * self.ground.diagonal();
+        let foot =
+            if near && whole.distance <= distance { whole } else { self.placed(at, query, &whole) };
+        self.stand(from, query, foot)
     }
 }
