@@ -63,6 +63,12 @@ fn checked<const N: usize>(
         assert_eq!(foot.distance, norm(sub(points[i], foot.point)));
         assert!(foot.lower_bound <= foot.distance && foot.lower_bound <= alone.lower_bound);
         assert_eq!(foot.flags & flag::NOT_PROVEN, alone.flags & flag::NOT_PROVEN);
+        let place = flag::SEAM | flag::EDGE | flag::CORNER;
+        let same_place = (foot.u, foot.v) == (alone.u, alone.v);
+        assert!(
+            !same_place || foot.flags & place == alone.flags & place,
+            "{i}: {foot:?} {alone:?}"
+        );
     }
     path
 }
@@ -201,6 +207,29 @@ fn along_the_axis_of_a_cylinder_the_free_angle_is_kept() {
         );
         assert!(path.changes[i] & change::TIE != 0);
     }
+}
+
+#[test]
+fn a_path_in_a_part_of_the_domain_stays_there() {
+    let tube = cylinder([0.0, 4.0]);
+    let part = QueryOptions { domain: Some([0.5, 3.0, 0.1, 0.9]), ..QueryOptions::default() };
+    let points: Vec<Vector> = (0..200)
+        .map(|i| f64::from(i) / 20.0)
+        .map(|a| [1.2 * a.cos(), 1.2 * a.sin(), 1.5 * (0.3 * a).sin()])
+        .collect();
+    let mut workspace = Workspace::default();
+    let ask = |p: &Vector| tube.closest(*p, None, &part, &mut workspace, None);
+    let mut feet: Vec<FootPoint> = points.iter().map(ask).collect();
+    let alone = feet.clone();
+    let mut changes = vec![0; feet.len()];
+    let output = PathOutput { unwrapped: None, changes: Some(&mut changes) };
+    tube.join(&|i| points[i], &mut feet, &part, output, &mut || false).unwrap();
+    for (foot, alone) in feet.iter().zip(&alone) {
+        assert!((0.5..=3.0).contains(&foot.u) && (0.1..=0.9).contains(&foot.v));
+        assert!((foot.distance - alone.distance).abs() < 1e-9);
+    }
+    // Over the gap it jumps, each time round.
+    assert!(changes.iter().any(|c| c & change::JUMP != 0));
 }
 
 #[test]

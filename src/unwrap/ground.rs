@@ -22,6 +22,8 @@ pub trait Ground {
     fn local(&mut self, query: Vector, start: [f64; 2]) -> FootPoint;
     /// Where the local iteration ends inside one cell (u0, u1, v0, v1), and its distance.
     fn local_in(&self, query: Vector, start: [f64; 2], cell: [f64; 4]) -> ([f64; 2], f64);
+    /// Whether answers are restricted to a part of the domain.
+    fn is_restricted(&self) -> bool;
     /// The knots of a parameter, when there are any.
     fn knots(&self, k: usize) -> Option<&Knots>;
     /// The gap between distance and bound that a proven answer may have.

@@ -164,6 +164,10 @@ impl Ground for CurveGround<'_> {
         ([u, 0.0], norm(jet.d))
     }
 
+    fn is_restricted(&self) -> bool {
+        self.local.domain.is_some()
+    }
+
     fn knots(&self, k: usize) -> Option<&Knots> {
         (k == 0).then(|| self.curve.curve().knots())
     }
@@ -273,6 +277,10 @@ impl Ground for SurfaceGround<'_> {
         let sided = SidedSurface { surface, query, high: [cell[1], cell[3]] };
         let (at, jet, _) = foot_on_surface(&sided, start, cell, self.local.method, None);
         (at, norm(jet.d))
+    }
+
+    fn is_restricted(&self) -> bool {
+        self.local.domain.is_some()
     }
 
     fn knots(&self, k: usize) -> Option<&Knots> {

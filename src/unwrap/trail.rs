@@ -263,6 +263,13 @@ impl<G: Ground> Trail<'_, G> {
         Some(Stand { foot, ..found })
     }
 
+    /// The end of a closed direction as its start.
+    fn canonical(&self, at: [f64; 2]) -> [f64; 2] {
+        let (ends, closed) = (self.ground.ends(), self.ground.closed());
+        let moves = |k: usize| closed[k] && !self.ground.is_restricted() && at[k] == ends[k][1];
+        [0, 1].map(|k| if moves(k) { ends[k][0] } else { at[k] })
+    }
+
     /// The local iteration from a foot, across seams and breaks.
     fn iterate(&mut self, from: &Stand, query: Vector) -> Stand {
         let start = [from.foot.u, from.foot.v];
@@ -271,6 +278,7 @@ impl<G: Ground> Trail<'_, G> {
             return self.stand(from, query, foot);
         }
         let (at, distance) = descend(self.ground, query, start);
+        let at = self.canonical(at);
         // Once more as a whole, for the record of the place.
         let whole = self.ground.local(query, at);
         let near = norm(sub(whole.point, self.ground.point(at))) <= SAME * self.ground.diagonal();
