@@ -2,15 +2,15 @@
 
 #[path = "cases/mod.rs"]
 mod cases;
-mod closed_forms;
+mod known_shapes;
 
-use closed_forms::*;
 use footpoint::closest::{FootPoint, QueryOptions, Workspace, flag as foot_flag};
 use footpoint::curve::Curve;
 use footpoint::index::{IndexedCurve, IndexedSurface};
 use footpoint::knots::Side;
 use footpoint::normal::{Facing, Normals, Tangents, flag, of_curve, of_surface};
 use footpoint::surface::Surface;
+use known_shapes::*;
 
 const POINTS: usize = 10_000;
 

@@ -2,14 +2,14 @@
 
 #[path = "cases/mod.rs"]
 mod cases;
-mod closed_forms;
+mod known_shapes;
 
-use closed_forms::*;
 use footpoint::closest::{FootPoint, QueryOptions, Workspace, flag};
 use footpoint::curve::Curve;
 use footpoint::index::{IndexedCurve, IndexedSurface};
 use footpoint::surface::Surface;
 use footpoint::unwrap::{PathOutput, change};
+use known_shapes::*;
 
 /// A joined path: the feet asked one by one, the joined ones, the unrolled parameters, the changes.
 struct Path<const N: usize> {
