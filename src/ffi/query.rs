@@ -39,7 +39,7 @@ pub unsafe extern "C" fn fpt_curve_closest(
     guard(|| unsafe {
         let curve = curve::indexed(curve)?;
         Batch::read(curve, points, count, options, out)?
-            .run(|c, q, h, o, w, t| c.closest(q, h.map(|[u]| u), o, w, t))
+            .run(|c, q, h, o, w: &mut Workspace, t| c.closest(q, h.map(|[u]| u), o, w, t))
     })
 }
 
@@ -64,7 +64,7 @@ pub unsafe extern "C" fn fpt_curve_invert(
     guard(|| unsafe {
         let curve = curve::indexed(curve)?;
         Batch::read(curve, points, count, options, out)?
-            .run(|c, q, h, o, w, t| c.invert(q, h.map(|[u]| u), o, w, t))
+            .run(|c, q, h, o, w: &mut Workspace, t| c.invert(q, h.map(|[u]| u), o, w, t))
     })
 }
 
@@ -158,14 +158,16 @@ impl Shape<2> for IndexedSurface {
 }
 
 /// One operation on one query point.
-pub(super) type Ask<S, const N: usize> = fn(
-    &S,
-    [f64; 3],
-    Option<[f64; N]>,
-    &QueryOptions,
-    &mut Workspace,
-    Option<Trace<'_>>,
-) -> FootPoint;
+pub(super) trait Ask<S, W, const N: usize>:
+    Fn(&S, [f64; 3], Option<[f64; N]>, &QueryOptions, &mut W, Option<Trace<'_>>) -> FootPoint + Sync
+{
+}
+
+impl<S, W, F, const N: usize> Ask<S, W, N> for F where
+    F: Fn(&S, [f64; 3], Option<[f64; N]>, &QueryOptions, &mut W, Option<Trace<'_>>) -> FootPoint
+        + Sync
+{
+}
 
 /// The checked arguments of one call.
 pub(super) struct Batch<'a, S, const N: usize> {
@@ -212,7 +214,8 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
         }
     }
 
-    fn run(mut self, ask: Ask<S, N>) -> Result<(), Failure> {
+    /// Asks `ask`, one operation on one query point, for every record; `W` is what a thread works with.
+    pub(super) fn run<W: Default>(mut self, ask: impl Ask<S, W, N>) -> Result<(), Failure> {
         self.answer(ask)?;
         let total = self.out.len();
         if total > 0 {
@@ -221,8 +224,8 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
         Ok(())
     }
 
-    /// Answers every query; the caller's last report is still to come.
-    pub(super) fn answer(&mut self, ask: Ask<S, N>) -> Result<(), Failure> {
+    /// As [`Self::run`], without the last report: more is to be done.
+    pub(super) fn answer<W: Default>(&mut self, ask: impl Ask<S, W, N>) -> Result<(), Failure> {
         let Self { shape, points, hints, ends, options, threads, callbacks, out } = self;
         let total = out.len();
         if total == 0 {
@@ -233,7 +236,7 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
             out.fill(FootPoint::unreached());
         }
         built?;
-        let work = |i: usize, workspace: &mut Workspace| {
+        let work = |i: usize, workspace: &mut W| {
             let hint = hints.as_ref().and_then(|hints| hint(hints.row(i), *ends));
             let mut told = |step, u, v, residual| callbacks.trace(i, step, [u, v], residual);
             let trace: Option<Trace<'_>> =
@@ -242,6 +245,14 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
         };
         Ok(batch::run(out, *threads, &work, &mut |done| callbacks.poll(done, total))?)
     }
+}
+
+/// Refuses a restriction that does not lie in the domain.
+pub(super) fn check_restriction<S: Shape<N>, const N: usize>(
+    shape: &S,
+    domain: Option<[f64; 4]>,
+) -> Result<(), Failure> {
+    restricted(shape, domain).map(|_| ())
 }
 
 /// The domain that answers come from.
@@ -269,7 +280,7 @@ fn hint<const N: usize>(row: [f64; N], ends: [[f64; 2]; N]) -> Option<[f64; N]> 
     if row.iter().any(|x| x.is_nan()) { None } else { Some(moved) }
 }
 
-type ShouldStop = unsafe extern "C" fn(*mut c_void) -> c_int;
+pub(super) type ShouldStop = unsafe extern "C" fn(*mut c_void) -> c_int;
 type Progress = unsafe extern "C" fn(*mut c_void, usize, usize);
 type TraceStep = unsafe extern "C" fn(*mut c_void, usize, u32, f64, f64, f64);
 
@@ -286,9 +297,14 @@ pub(super) struct Callbacks {
 unsafe impl Sync for Callbacks {}
 
 impl Callbacks {
-    fn of(options: &fpt_query_options) -> Self {
+    pub(super) fn of(options: &fpt_query_options) -> Self {
         let fpt_query_options { should_stop, progress, trace, user, .. } = *options;
         Self { should_stop, progress, trace, user }
+    }
+
+    /// Only the question whether to stop.
+    pub(super) fn stopping(should_stop: Option<ShouldStop>, user: *mut c_void) -> Self {
+        Self { should_stop, progress: None, trace: None, user }
     }
 
     /// Tells how far the call is and asks whether to stop.
