@@ -99,12 +99,16 @@ impl Search<'_> {
         let found = self.flat_place(area);
         let at = [0, 1].map(|k| if flat[k] { area[2 * k] } else { found[k] });
         let mut foot = self.foot(at);
-        if flat != [false; 2] && foot.flags & flag::COLLAPSED == 0 {
+        let is_collapsed = foot.flags & flag::COLLAPSED != 0;
+        // A collapsed edge is an arc of parameters and one point; a region is a continuum even if it begins there.
+        if flat == [true; 2] || (flat != [false; 2] && !is_collapsed) {
             foot.flags |= flag::CONTINUUM | flag::TIE;
         }
         let interval = |k: usize, x: f64| [area[2 * k].min(x), area[2 * k + 1].max(x)];
         let (u, v) = (interval(0, foot.u), interval(1, foot.v));
-        let across = if flat == [false; 2] { None } else { self.signs(at).nature_across() };
+        // Where a parameter does not move the point, the signs are rounding.
+        let is_told = flat[0] != flat[1] && !is_collapsed;
+        let across = if is_told { self.signs(at).nature_across() } else { None };
         let nature = across.unwrap_or_else(|| self.sampled_nature(at, area));
         Member { foot, u, v, kind: kind(flat), nature }
     }
