@@ -107,8 +107,11 @@ impl Search<'_> {
         let interval = |k: usize, x: f64| [area[2 * k].min(x), area[2 * k + 1].max(x)];
         let (u, v) = (interval(0, foot.u), interval(1, foot.v));
         // Where a parameter does not move the point, the signs are rounding.
-        let is_told = flat[0] != flat[1] && !is_collapsed;
-        let across = if is_told { self.signs(at).nature_across() } else { None };
+        let across = match flat {
+            [true, false] if !is_collapsed => self.signs_across(at, 1).nature_across(),
+            [false, true] if !is_collapsed => self.signs_across(at, 0).nature_across(),
+            _ => None,
+        };
         let nature = across.unwrap_or_else(|| self.sampled_nature(at, area));
         Member { foot, u, v, kind: kind(flat), nature }
     }
