@@ -468,6 +468,17 @@ impl<'a> Search<'a> {
         signs
     }
 
+    /// The signs along one parameter alone.
+    fn signs_across(&self, at: [f64; 2], k: usize) -> Signs {
+        let mut signs = Signs::default();
+        for (piece, local) in self.index.around(at, self.range) {
+            let Some(sheet) = self.sheet(piece) else { continue };
+            let (local, ends) = self.ended(at, local);
+            signs.segment(&sheet.jet(local).along(k), ends[k], sheet.position);
+        }
+        signs
+    }
+
     /// The local place and the same with the ends of a restriction counted as ends of the piece.
     fn ended(&self, at: [f64; 2], local: [f64; 2]) -> ([f64; 2], [f64; 2]) {
         let ends = [0, 1].map(|k| {

@@ -140,12 +140,10 @@ fn wanted_flags(shape: &Shape, m: &Member, found: u32) -> u32 {
     put(&mut flags, in_u && in_v, flag::CORNER);
     put(&mut flags, (in_u && closed[0]) || (in_v && closed[1]), flag::SEAM);
     put(&mut flags, (0..4).any(|k| on[k] && collapsed[k]), flag::COLLAPSED);
-    // A collapsed edge is an arc by its parameters, and a continuum only by those.
-    if flags & flag::COLLAPSED == 0 || m.kind == Kind::Point {
-        put(&mut flags, m.kind != Kind::Point, flag::CONTINUUM);
-    } else {
-        put(&mut flags, found & flag::CONTINUUM != 0, flag::CONTINUUM);
-    }
+    // A collapsed edge is an arc of parameters and one point: both views are fine.
+    let is_open = flags & flag::COLLAPSED != 0 && matches!(m.kind, Kind::ArcU | Kind::ArcV);
+    let is_continuum = if is_open { found & flag::CONTINUUM != 0 } else { m.kind != Kind::Point };
+    put(&mut flags, is_continuum, flag::CONTINUUM);
     flags
 }
 

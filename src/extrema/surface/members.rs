@@ -111,14 +111,19 @@ impl Search<'_> {
         let is_near = (self.distance(start) - self.distance(found)).abs() <= self.accuracy;
         let at = if is_near { start } else { found };
         let mut foot = self.foot(at);
-        let is_point = flat != [true; 2] && foot.flags & flag::COLLAPSED != 0;
-        if flat != [false; 2] && !is_point {
+        let is_collapsed = foot.flags & flag::COLLAPSED != 0;
+        // A collapsed edge is an arc of parameters and one point; a region is a continuum even if it begins there.
+        if flat == [true; 2] || (flat != [false; 2] && !is_collapsed) {
             foot.flags |= flag::CONTINUUM | flag::TIE;
         }
         let interval = |k: usize, x: f64| [area[2 * k].min(x), area[2 * k + 1].max(x)];
         let (u, v) = (interval(0, foot.u), interval(1, foot.v));
-        let told = flat[0] != flat[1] && !is_point;
-        let across = if told { self.signs(at).nature_across() } else { None };
+        // Where a parameter does not move the point, the signs are rounding.
+        let across = match flat {
+            [true, false] if !is_collapsed => self.signs_across(at, 1).nature_across(),
+            [false, true] if !is_collapsed => self.signs_across(at, 0).nature_across(),
+            _ => None,
+        };
         let nature = across.unwrap_or_else(|| self.sampled_nature(at, area));
         Member { foot, u, v, kind: kind(flat), nature }
     }
