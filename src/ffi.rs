@@ -7,7 +7,8 @@
 //! ```text
 //!   C call -> guard -> arguments (pointers, counts, strides)   memory.rs, limits.rs
 //!                   -> options, records (struct layouts)       options.rs, records.rs
-//!                   -> Curve, Surface, closest, batch          curve.rs, surface.rs, query.rs
+//!                   -> spline or function behind a handle      form.rs
+//!                   -> Curve, Surface, closest, batch          curve.rs, surface.rs, callback.rs, query.rs
 //!          <- fpt_status, text of a failure for fpt_last_error
 //! ```
 //!
@@ -22,8 +23,10 @@ mod memory;
 mod limits;
 mod options;
 mod records;
+mod form;
 mod curve;
 mod surface;
+mod callback;
 mod query;
 #[cfg(test)]
 mod tests;

@@ -29,6 +29,8 @@ pub mod closest;
 
 pub mod set;
 
+pub mod callback;
+
 pub mod batch;
 
 mod ffi;
