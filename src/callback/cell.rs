@@ -6,7 +6,8 @@
 //! ```text
 //!   distance of the centre   e + 8 ulps of |r|
 //!   first derivative, given  64 ulps of itself and of the largest coordinate over the width of the domain
-//!   by differences           2 M s + 4 e / s + the grain of the parameters over s, for the step s
+//!   by differences           2 M s + 4 (e + grain) / s for the step s, which is chosen near the best, sqrt(2 (e + grain) / M);
+//!                            the grain is what an ulp of the parameter moves the point
 //!   slope r.S_u              |r| t + e |S_u| + 8 ulps of |r| |S_u|
 //! ```
 //!
@@ -15,7 +16,7 @@
 use std::cell::Cell as Counter;
 
 use super::SurfaceBounds;
-use super::source::{POINT_ULPS, STEP_FIRST, Shape};
+use super::source::{POINT_ULPS, STEP_FIRST, Sample, Shape, Source};
 use crate::bounds::{Vector, add, dot, norm, scaled, sub};
 use crate::jet::{Jet1, Jet2};
 use crate::refine::{CurveJets, SurfaceJets};
@@ -38,6 +39,8 @@ pub struct Probe<'a> {
     pub bounds: SurfaceBounds,
     /// Whether the caller vouches for them.
     pub trusted: bool,
+    /// Steps of differences that bounds are made of, as shares of the domain.
+    steps: [f64; 2],
     taken: Counter<u32>,
     failed: Counter<bool>,
 }
@@ -48,7 +51,9 @@ impl<'a> Probe<'a> {
         let given = shape.bounds;
         let trusted = given.speed.is_some() || given.second.is_some();
         let bounds = if trusted { given } else { shape.survey.estimate };
-        Self { shape, query, bounds, trusted, taken: Counter::new(0), failed: Counter::new(false) }
+        let (taken, failed) = (Counter::new(0), Counter::new(false));
+        let steps = [0, 1].map(|k| step(shape, k, bounds.second));
+        Self { shape, query, bounds, trusted, steps, taken, failed }
     }
 
     /// For a query that needs bounds of second derivatives.
@@ -57,7 +62,8 @@ impl<'a> Probe<'a> {
         let second = given.second.or(shape.survey.estimate.second);
         let bounds = SurfaceBounds { speed: given.speed, second };
         let probe = Self::new(shape, query);
-        Self { bounds, trusted: given.second.is_some(), ..probe }
+        let steps = [0, 1].map(|k| step(shape, k, second));
+        Self { bounds, trusted: given.second.is_some(), steps, ..probe }
     }
 
     /// Evaluations so far.
@@ -72,7 +78,15 @@ impl<'a> Probe<'a> {
 
     /// Values at a place; a failure is remembered. The second number tells how many orders are the function's own.
     pub fn values(&self, at: [f64; 2], order: usize) -> Option<([Vector; 6], usize)> {
-        let sample = self.shape.source.sample(at, order);
+        self.counted(self.shape.source.sample(at, order))
+    }
+
+    /// As [`Self::values`] up to order 1, with differences whose errors are small and known.
+    fn tangents(&self, at: [f64; 2], order: usize) -> Option<([Vector; 6], usize)> {
+        self.counted(self.shape.source.sample_by(at, order, self.steps))
+    }
+
+    fn counted(&self, sample: Option<Sample>) -> Option<([Vector; 6], usize)> {
         self.taken.set(self.taken.get().saturating_add(sample.as_ref().map_or(1, |s| s.calls)));
         if sample.is_none() {
             self.failed.set(true);
@@ -109,11 +123,27 @@ impl<'a> Probe<'a> {
         if delivered > 0 {
             return POINT_ULPS * ULP * norm(tangent) + point / width;
         }
-        let step = STEP_FIRST * width;
+        let step = self.steps[k] * width;
         let second = self.bounds.second.map_or(f64::INFINITY, |m| m[2 * k]);
-        let grain = ULP * source.domain[2 * k].abs().max(source.domain[2 * k + 1].abs());
-        2.0 * second * step + 4.0 * (point + grain * norm(tangent)) / step
+        // The step itself is rounded to the doubles of the parameter.
+        2.0 * second * step * 1.01 + 4.0 * (point + grain(source, k) * norm(tangent)) / step * 1.01
     }
+}
+
+/// Distance between doubles of parameter k.
+fn grain(source: &Source, k: usize) -> f64 {
+    ULP * source.domain[2 * k].abs().max(source.domain[2 * k + 1].abs())
+}
+
+/// The step of differences, as a share of the domain, that makes the bound of their error least.
+fn step(shape: &Shape, k: usize, second: Option<[f64; 3]>) -> f64 {
+    let (source, width) = (&shape.source, shape.source.width(k));
+    let Some(bound) = second.map(|m| m[2 * k]).filter(|&m| m > 0.0 && width > 0.0) else {
+        return STEP_FIRST;
+    };
+    let moved = grain(source, k) * shape.survey.diagonal / width;
+    let best = (2.0 * (shape.rounding([0.0; 3]) + moved) / bound).sqrt() / width;
+    best.clamp((256.0 * grain(source, k) / width).min(STEP_FIRST), STEP_FIRST)
 }
 
 impl CurveJets for Probe<'_> {
@@ -182,7 +212,7 @@ impl View {
         let ((u, hu), (v, hv)) = (middle(range[0], range[1]), middle(range[2], range[3]));
         let (centre, half) = ([u, v], [hu, hv]);
         let second = probe.bounds.second;
-        let (values, delivered) = probe.values(centre, usize::from(second.is_some()))?;
+        let (values, delivered) = probe.tangents(centre, usize::from(second.is_some()))?;
         let r = sub(values[0], probe.query);
         let distance = norm(r);
         let point_error = probe.shape.rounding(values[0]);

@@ -127,12 +127,16 @@ impl Source {
 
     /// Values up to `order` (at most 2), with differences for what the function does not give.
     pub fn sample(&self, at: [f64; 2], order: usize) -> Option<Sample> {
+        self.sample_by(at, order, [STEP_FIRST; 2])
+    }
+
+    /// The same with given steps, as shares of the domain, for first derivatives.
+    pub fn sample_by(&self, at: [f64; 2], order: usize, steps: [f64; 2]) -> Option<Sample> {
         let (values, delivered) = self.call(at, order)?;
         let mut sample = Sample { values, delivered, calls: 1 };
         if delivered == 0 && order > 0 {
             for k in 0..self.dims {
-                sample.values[1 + k] =
-                    self.difference(at, [k], 0, STEP_FIRST, &mut sample.calls)?;
+                sample.values[1 + k] = self.difference(at, [k], 0, steps[k], &mut sample.calls)?;
             }
         }
         if delivered < 2 && order == 2 {
