@@ -378,6 +378,21 @@ impl View {
         (curvature > 0.0).then_some(curvature)
     }
 
+    /// The parameter to halve so that a slope keeps its sign sooner: of the slope that is nearest to that, the one that
+    /// contributes more to how much it varies.
+    pub fn blurring(&self, free: [bool; 2]) -> usize {
+        let Some(second) = self.second else { return self.longer() };
+        let [uu, uv, vv] = self.curvatures(second);
+        let ([h, l], [s, t]) = (self.half, self.tangents);
+        let vary = [[uu * h, uv * l], [uv * h, vv * l]];
+        let sharp = [0, 1].map(|k| {
+            let slope = dot(self.r, if k == 0 { s } else { t }).abs();
+            if free[k] { slope / (vary[k][0] + vary[k][1]) } else { -1.0 }
+        });
+        let nearest = usize::from(sharp[1] > sharp[0]);
+        usize::from(vary[nearest][1] > vary[nearest][0])
+    }
+
     /// The parameter to halve: the one that contributes more to the uncertainty.
     pub fn longer(&self) -> usize {
         let [h, k] = self.half;

@@ -31,6 +31,10 @@ use crate::set::{FootSet, Member};
 /// Boxes of this share of the domain are not halved any more.
 pub const RESOLUTION: f64 = 1.0 / 4096.0;
 
+/// Clusters in which nothing is found are halved on to this share of the resolution, so often.
+const RESOLUTION_STEP: f64 = 1.0 / 16.0;
+const ROUNDS: usize = 3;
+
 /// A cluster wider than this share of the domain is no single place.
 const WIDE: f64 = 1.0 / 64.0;
 
@@ -164,31 +168,53 @@ impl Request<'_> {
         }
     }
 
-    /// The stationary points of one stratum, over its free parameters.
+    /// The stationary points of one stratum, over its free parameters. Clusters in which the iteration finds nothing are
+    /// halved on: mostly they hold nothing.
     fn stratum(&mut self, range: [f64; 4], free: [bool; 2]) {
-        let (mut small, mut boxes) = (Vec::new(), vec![range]);
+        let (mut boxes, mut resolution) = (vec![range], RESOLUTION);
+        for _ in 0..ROUNDS {
+            let (small, complete) = self.subdivide(boxes, free, resolution);
+            boxes = Vec::new();
+            for cluster in clusters(&small) {
+                if !self.resolve(&small, &cluster, free) {
+                    boxes.extend(cluster.members.iter().map(|&i| small[i]));
+                }
+            }
+            if !complete || boxes.is_empty() {
+                break;
+            }
+            resolution *= RESOLUTION_STEP;
+        }
+        self.undecided.append(&mut boxes);
+    }
+
+    /// Halves down to the resolution, level by level. False when the budget has cut it short: then large boxes are left.
+    fn subdivide(
+        &mut self,
+        mut boxes: Vec<[f64; 4]>,
+        free: [bool; 2],
+        resolution: f64,
+    ) -> (Vec<[f64; 4]>, bool) {
+        let mut small = Vec::new();
         while !boxes.is_empty() {
             if self.boxes + boxes.len() as u64 > self.budget {
-                break;
+                small.append(&mut boxes);
+                return (small, false);
             }
             let mut next = Vec::new();
             for area in boxes {
-                self.examine(area, free, &mut small, &mut next);
+                self.examine(area, free, resolution, &mut small, &mut next);
             }
             boxes = next;
         }
-        // What the budget has left is clustered as it is.
-        let cut_short = !boxes.is_empty();
-        small.append(&mut boxes);
-        for cluster in clusters(&small) {
-            self.resolve(&small, &cluster, free, cut_short);
-        }
+        (small, true)
     }
 
     fn examine(
         &mut self,
         range: [f64; 4],
         free: [bool; 2],
+        resolution: f64,
         small: &mut Vec<[f64; 4]>,
         next: &mut Vec<[f64; 4]>,
     ) {
@@ -213,9 +239,9 @@ impl Request<'_> {
             let width = self.probe.shape.source.width(k);
             if free[k] && width > 0.0 { (range[2 * k + 1] - range[2 * k]) / width } else { 0.0 }
         });
-        let wanted = view.longer();
-        let k = if widths[wanted] > RESOLUTION { wanted } else { 1 - wanted };
-        match if widths[k] > RESOLUTION { halves(range, k) } else { None } {
+        let wanted = view.blurring(free);
+        let k = if widths[wanted] > resolution { wanted } else { 1 - wanted };
+        match if widths[k] > resolution { halves(range, k) } else { None } {
             Some(parts) => next.extend(parts),
             None => small.push(range),
         }
@@ -253,42 +279,33 @@ impl Request<'_> {
         is_tight.then_some(Some(less))
     }
 
-    /// What a cluster of small boxes holds.
-    fn resolve(&mut self, small: &[[f64; 4]], cluster: &Cluster, free: [bool; 2], cut_short: bool) {
+    /// Takes what a cluster of small boxes holds; false when the iteration finds nothing in it.
+    fn resolve(&mut self, small: &[[f64; 4]], cluster: &Cluster, free: [bool; 2]) -> bool {
         if self.belongs_to_collapsed(cluster.hull) {
-            return;
+            return true;
         }
         let places = self.places(small, cluster, free);
+        let Some(&first) = places.first() else { return false };
         let widths = [0, 1].map(|k| cluster.hull[2 * k + 1] - cluster.hull[2 * k]);
         let wide = [0, 1].map(|k| free[k] && widths[k] > WIDE * self.probe.shape.source.width(k));
-        if wide == [false; 2] {
-            match places.first() {
-                Some(&place) => {
-                    let member = self.member_at(place, cluster.hull, [false; 2]);
-                    self.members.push(member);
-                }
-                // Slopes that only nearly vanish: with a full search it is undecided, else it was never looked at.
-                None => self.undecided.push(cluster.hull),
-            }
-            return;
-        }
-        let even = places.iter().all(|p| self.is_even(p.distance, places[0].distance));
-        if places.len() > STARTS / 2 && even && !cut_short
-            || even && self.is_continuum(&places, wide)
-        {
-            let member = self.member_at(places[0], cluster.hull, wide);
+        let even = places.iter().all(|place| self.is_even(place.distance, first.distance));
+        if wide == [false; 2] || (even && self.is_continuum(&places, wide)) {
+            let member = self.member_at(first, cluster.hull, wide);
             self.members.push(member);
-            return;
+            return true;
         }
         self.undecided.push(cluster.hull);
         for place in places {
-            let known = self.members.iter().any(|m| self.is_same(m, place));
+            let at = place.at;
+            let member = self.member_at(place, [at[0], at[0], at[1], at[1]], [false; 2]);
+            // A collapsed edge has been judged as a whole.
+            let known = member.foot.flags & flag::COLLAPSED != 0
+                || self.members.iter().any(|member| self.is_same(member, place));
             if !known {
-                let at = place.at;
-                let member = self.member_at(place, [at[0], at[0], at[1], at[1]], [false; 2]);
                 self.members.push(member);
             }
         }
+        true
     }
 
     /// Places in a cluster to which the iteration leads, from boxes spread over it.
