@@ -579,7 +579,8 @@ fpt_status fpt_curve_evaluate(const struct fpt_curve *curve,
  * @param count        may be 0
  * @param derivatives  highest order d, at most 31
  * @param out          count*3*(d + 1) numbers, the values of parameter i at i*3*(d + 1); must not
- *                     overlap `parameters`
+ *                     overlap `parameters`. Where a callback fails: FPT_INVALID_ARGUMENT, the values
+ *                     before are written
  * @since 0.1
  */
 FPT_MUST_USE
@@ -727,7 +728,8 @@ fpt_status fpt_surface_evaluate(const struct fpt_surface *surface,
  * @param count        pairs; may be 0
  * @param derivatives  highest total order d, at most 31
  * @param out          count*n numbers with n = 3*(d + 1)*(d + 2)/2, the values of pair i at i*n; must
- *                     not overlap `parameters`
+ *                     not overlap `parameters`. Where a callback fails: FPT_INVALID_ARGUMENT, the
+ *                     values before are written
  * @since 0.1
  */
 FPT_MUST_USE
@@ -881,7 +883,7 @@ fpt_status fpt_surface_prepare(const struct fpt_surface *surface);
 /**
  * Makes a curve from a function. It is used like any other curve; functions about degree, knots, poles and
  * weights return FPT_UNSUPPORTED. A query looks at 20,000 boxes of parameters by default when a bound is
- * given, at 2,000 when there is none; finite differences use steps of 2^-17 of the domain for first
+ * given (a preimage at 100,000), at 2,000 when there is none; finite differences use steps of 2^-17 of the domain for first
  * derivatives and for derivatives of given ones, 2^-13 for second differences of points, one-sided at the
  * ends. The function is called 129 times or more, for the box and to see whether the curve is closed.
  *

@@ -1,7 +1,7 @@
 //! Curves and surfaces given by a function: offsets, Coons patches, shapes of other kernels.
 //!
 //! A shape is a function that gives the point at a parameter, with derivatives up to order 2 if it has them; what it
-//! does not give is taken from finite differences ([`source`]). It is all that is known about the shape, so a proof
+//! does not give is taken from finite differences (`source`). It is all that is known about the shape, so a proof
 //! needs one thing more: bounds of the derivatives, vouched for by the caller.
 //!
 //! ```text
@@ -61,12 +61,15 @@ use crate::error::Error;
 use crate::set::FootSet;
 use source::{Shape, Source};
 
-pub use source::{POINT_ULPS, STEP_FIRST, STEP_SECOND};
+pub use source::{CURVE_SAMPLES, POINT_ULPS, STEP_FIRST, STEP_SECOND, SURFACE_SAMPLES};
 
 /// Boxes a query may look at by default when bounds are given.
 pub const DEFAULT_BUDGET: u64 = 20_000;
 
-/// The same when there are none: more boxes prove nothing then.
+/// The same for preimages: an arc takes many, a place few.
+pub const DEFAULT_BUDGET_PREIMAGE: u64 = 100_000;
+
+/// Boxes by default when there are no bounds: more boxes prove nothing then.
 pub const DEFAULT_BUDGET_UNPROVEN: u64 = 2_000;
 
 /// What the caller vouches for about a curve. Each bound is finite and at least 0.
@@ -103,7 +106,7 @@ impl CallbackCurve {
     /// A curve on `domain`, from `function(u, order, out)`: it writes the point and the derivatives up to `order` (0 to
     /// 2) to `out[0]`, `out[1]`, `out[2]` and returns the highest order that it has written, `None` where it fails.
     ///
-    /// The function is called here, at [`source::CURVE_SAMPLES`] places: for the box, for whether the curve is closed, and
+    /// The function is called here, at [`CURVE_SAMPLES`] places: for the box, for whether the curve is closed, and
     /// to estimate bounds that are not given.
     ///
     /// # Errors
@@ -202,7 +205,7 @@ impl CallbackSurface {
     /// derivatives up to the total `order` (0 to 2) to `out`, in the order S; Su, Sv; Suu, Suv, Svv, and returns
     /// the highest order that it has written, `None` where it fails.
     ///
-    /// The function is called here, at a grid of [`source::SURFACE_SAMPLES`] squared places: for the box, for closed
+    /// The function is called here, at a grid of [`SURFACE_SAMPLES`] squared places: for the box, for closed
     /// directions and collapsed edges, and to estimate bounds that are not given.
     ///
     /// # Errors

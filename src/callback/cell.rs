@@ -427,3 +427,94 @@ pub fn halves(range: [f64; 4], k: usize) -> Option<[[f64; 4]; 2]> {
     (low[2 * k + 1], high[2 * k]) = (centre, centre);
     Some([low, high])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::source::Source;
+    use super::*;
+
+    /// A wave over the plane, with first derivatives or without; |S_uu| <= 0.36 and so on.
+    fn wave(orders: usize, kinds: [bool; 2]) -> Shape {
+        let function = move |at: [f64; 2], order: usize, out: &mut [Vector; 6]| {
+            *out = wave_values(at);
+            Some(orders.min(order))
+        };
+        let source = Source::new(2, [-1.0, 2.0, 0.0, 3.0], Box::new(function)).unwrap();
+        let bounds = SurfaceBounds {
+            speed: kinds[0].then_some([1.36, 1.24]),
+            second: kinds[1].then_some([0.432, 0.288, 0.192]),
+        };
+        Shape::new(source, bounds).unwrap()
+    }
+
+    /// (u, v, 0.3 sin(1.2 u + 0.8 v)).
+    fn wave_values([u, v]: [f64; 2]) -> [Vector; 6] {
+        let (s, c) = (1.2 * u + 0.8 * v).sin_cos();
+        let z = [0.3 * s, 0.36 * c, 0.24 * c, -0.432 * s, -0.288 * s, -0.192 * s];
+        let flat = [[u, v], [1.0, 0.0], [0.0, 1.0], [0.0; 2], [0.0; 2], [0.0; 2]];
+        [0, 1, 2, 3, 4, 5].map(|k| [flat[k][0], flat[k][1], z[k]])
+    }
+
+    #[test]
+    fn bounds_of_a_box_hold_for_its_samples() {
+        for (orders, kinds) in
+            [(2, [true, true]), (0, [false, true]), (1, [false, true]), (2, [true, false])]
+        {
+            let shape = wave(orders, kinds);
+            for (i, query) in
+                [[0.3, 1.0, 0.7], [0.1, 1.5, -0.2], [4.0, -2.0, 3.0]].into_iter().enumerate()
+            {
+                let probe = Probe::new(&shape, query);
+                for size in [1.0, 0.2, 1e-3] {
+                    let range =
+                        [0.1, 0.1 + size, 0.4 + 0.3 * i as f64, 0.4 + 0.3 * i as f64 + 0.7 * size];
+                    check_box(&probe, range);
+                }
+            }
+        }
+    }
+
+    fn check_box(probe: &Probe, range: [f64; 4]) {
+        let view = View::new(probe, range).unwrap();
+        let convex = view.convexity();
+        for k in 0..=8 * 9 {
+            let share = |i: usize| i as f64 / 8.0;
+            let at = [
+                range[0] + share(k % 9) * (range[1] - range[0]),
+                range[2] + share(k / 9) * (range[3] - range[2]),
+            ];
+            let [point, s, t, ss, st, tt] = wave_values(at);
+            let d = sub(point, probe.query);
+            assert!(view.lower() <= norm(d) + 1e-15 && norm(d) <= view.upper() + 1e-15);
+            for (i, tangent) in [s, t].into_iter().enumerate() {
+                assert!(norm(tangent) <= view.speeds[i] + 1e-15);
+                let Some((slope, vary)) = view.slope(i) else { continue };
+                assert!((dot(d, tangent) - slope).abs() <= vary + 1e-15, "{at:?} in {range:?}");
+            }
+            if let Some(curvature) = convex {
+                let (a, c) = (dot(s, s) + dot(d, ss), dot(t, t) + dot(d, tt));
+                let b = dot(s, t) + dot(d, st);
+                let half = (0.25 * (a - c) * (a - c) + b * b).sqrt();
+                assert!(0.5 * (a + c) - half >= curvature, "{at:?} in {range:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn near_the_shape_small_boxes_are_convex_and_far_from_it_they_are_not() {
+        let shape = wave(1, [false, true]);
+        let convex = |z: f64| {
+            let probe = Probe::new(&shape, [0.3, 1.0, z]);
+            View::new(&probe, [0.2, 0.4, 0.9, 1.1]).unwrap().convexity().is_some()
+        };
+        assert!(convex(0.5) && !convex(9.0));
+    }
+
+    #[test]
+    fn halves_meet_in_the_middle_and_end_at_neighbours() {
+        let [low, high] = halves([0.0, 1.0, 3.0, 3.0], 0).unwrap();
+        assert_eq!([low, high], [[0.0, 0.5, 3.0, 3.0], [0.5, 1.0, 3.0, 3.0]]);
+        assert!(halves([1.0, 1.0f64.next_up(), 0.0, 1.0], 0).is_none());
+        assert!(halves([0.0, 1.0, 3.0, 3.0], 1).is_none());
+    }
+}

@@ -17,14 +17,15 @@
 //! it is what Newton's iteration finds: bounds of third derivatives would be needed for more.
 //! Limit: two stationary points nearer than a few [`RESOLUTION`] can come out as one.
 
+use super::DEFAULT_BUDGET;
 use super::cell::{Probe, View, halves};
-use super::cluster::{Cluster, clusters};
+use super::cluster::{Cluster, clusters, hull};
 use super::foot::{Place, is_bad};
-use super::nature::verdict;
+use super::nature::{LEAST_COSINE, LEAST_CURVATURE, verdict};
 use super::preimage::kind;
 use super::search::budget;
 use super::source::Shape;
-use crate::bounds::{Vector, norm, sub};
+use crate::bounds::{Vector, dot, norm, sub};
 use crate::closest::{QueryOptions, flag};
 use crate::set::{FootSet, Member};
 
@@ -67,7 +68,7 @@ pub fn extrema(shape: &Shape, query: Vector, options: &QueryOptions) -> FootSet 
         options,
         range,
         boxes: 0,
-        budget: budget(options, probe.trusted),
+        budget: budget(options, probe.trusted, DEFAULT_BUDGET),
         members: Vec::new(),
         undecided: Vec::new(),
     };
@@ -139,7 +140,15 @@ impl Request<'_> {
             let Some(jet) = self.probe.jet_at(self.on_edge(k, self.range[side], i)) else { return };
             let one = jet.along(k);
             let cosine = inward * one.gradient() / (norm(one.s) * norm(one.d) + f64::MIN_POSITIVE);
-            signs.push(if cosine.abs() > 1e-7 { cosine } else { one.hessian() });
+            let curvature = one.hessian() / (dot(one.s, one.s) + f64::MIN_POSITIVE);
+            let flat = curvature.abs() <= LEAST_CURVATURE;
+            signs.push(if cosine.abs() > LEAST_COSINE {
+                cosine
+            } else if flat {
+                0.0
+            } else {
+                curvature
+            });
         }
         let (up, down) = (signs.iter().any(|&x| x > 0.0), signs.iter().any(|&x| x < 0.0));
         let Some(place) = self.probe.place(self.on_edge(k, self.range[side], 0)) else { return };
@@ -295,17 +304,40 @@ impl Request<'_> {
             return true;
         }
         self.undecided.push(cluster.hull);
-        for place in places {
-            let at = place.at;
-            let member = self.member_at(place, [at[0], at[0], at[1], at[1]], [false; 2]);
-            // A collapsed edge has been judged as a whole.
-            let known = member.foot.flags & flag::COLLAPSED != 0
-                || self.members.iter().any(|member| self.is_same(member, place));
-            if !known {
+        self.tell(places, free);
+        true
+    }
+
+    /// Members from places of an undecided cluster: those at one distance that spread far are a continuum.
+    fn tell(&mut self, mut places: Vec<Place>, free: [bool; 2]) {
+        // A collapsed edge has been judged as a whole.
+        let on_collapsed = |place: &Place| {
+            self.probe.record(*place, self.range, false).flags & flag::COLLAPSED != 0
+        };
+        places.retain(|place| !on_collapsed(place));
+        while let Some(&first) = places.first() {
+            let (group, rest): (Vec<Place>, Vec<Place>) =
+                places.into_iter().partition(|place| self.is_even(place.distance, first.distance));
+            places = rest;
+            let point = |at: [f64; 2]| [at[0], at[0], at[1], at[1]];
+            let area =
+                group.iter().fold(point(first.at), |area, place| hull(area, point(place.at)));
+            let wide = [0, 1].map(|k| {
+                let width = area[2 * k + 1] - area[2 * k];
+                free[k] && width > WIDE * self.probe.shape.source.width(k)
+            });
+            if wide != [false; 2] && self.is_continuum(&group, wide) {
+                let member = self.member_at(first, area, wide);
                 self.members.push(member);
+                continue;
+            }
+            for place in group {
+                if !self.members.iter().any(|member| self.is_same(member, place)) {
+                    let member = self.member_at(place, point(place.at), [false; 2]);
+                    self.members.push(member);
+                }
             }
         }
-        true
     }
 
     /// Places in a cluster to which the iteration leads, from boxes spread over it.

@@ -13,7 +13,7 @@ use crate::jet::Jet2;
 use crate::set::Nature;
 
 /// First derivatives count as zero below this cosine between distance and tangent.
-const LEAST_COSINE: f64 = 1e-7;
+pub const LEAST_COSINE: f64 = 1e-7;
 
 /// Second derivatives count as zero below this share of the metric.
 pub const LEAST_CURVATURE: f64 = 1e-5;

@@ -15,7 +15,8 @@
 //! Limit: an arc takes as many boxes as it has lengths of the tolerance, or of the square root of the tolerance where
 //! only second derivatives blur it.
 
-use super::cell::{Probe, View, halves};
+use super::DEFAULT_BUDGET_PREIMAGE;
+use super::cell::{Probe, View, halves, meet};
 use super::cluster::{Cluster, clusters};
 use super::foot::{Place, is_bad};
 use super::search::budget;
@@ -28,9 +29,10 @@ use crate::set::{FootSet, Kind, Member};
 /// where nothing was found.
 const SHARES: [f64; 2] = [0.5, 1.0 / 32.0];
 
-/// A parameter varies in a member that is wider than this share of the domain although its speed does not carry it out
-/// of the tolerance.
+/// A parameter varies in a member that is wider than the one share of the domain although that carries the point only
+/// the other share of the tolerance.
 const WIDE: f64 = 0.01;
+const CARRIED: f64 = 0.25;
 
 /// One request.
 struct Request<'a> {
@@ -55,7 +57,7 @@ pub fn preimage(shape: &Shape, query: Vector, tolerance: f64, options: &QueryOpt
         range: shape.range(options),
         tolerance: shape.tolerance(tolerance),
         boxes: 0,
-        budget: budget(options, probe.trusted),
+        budget: budget(options, probe.trusted, DEFAULT_BUDGET_PREIMAGE),
         undecided: Vec::new(),
     };
     let mut members = Vec::new();
@@ -192,15 +194,34 @@ impl Request<'_> {
         [0, 1].map(|k| {
             let width = hull[2 * k + 1] - hull[2 * k];
             let carried = crate::bounds::norm(tangents[k]) * width;
-            k < source.dims && width > WIDE * source.width(k) && carried <= self.tolerance
+            k < source.dims && width > WIDE * source.width(k) && carried <= CARRIED * self.tolerance
+        })
+    }
+
+    /// A place within the tolerance in an undecided cluster that no member has.
+    fn found(&self, hull: [f64; 4], members: &[Member]) -> Option<Member> {
+        let start = [0, 1].map(|k| 0.5 * hull[2 * k] + 0.5 * hull[2 * k + 1]);
+        let place = self.probe.refined(start, hull, self.options.method, None)?;
+        let at = place.at;
+        let known = members.iter().any(|m| meet(m.u, [at[0], at[0]]) && meet(m.v, [at[1], at[1]]));
+        (!known && place.distance <= self.tolerance).then(|| Member {
+            foot: self.probe.record(place, self.range, false),
+            u: [at[0]; 2],
+            v: [at[1]; 2],
+            kind: Kind::Point,
+            nature: self.probe.nature(place, self.range),
         })
     }
 
     fn finish(self, mut members: Vec<Member>) -> FootSet {
+        let open = clusters(&self.undecided);
+        for cluster in &open {
+            members.extend(self.found(cluster.hull, &members));
+        }
         members.sort_by(|a, b| a.foot.u.total_cmp(&b.foot.u).then(a.foot.v.total_cmp(&b.foot.v)));
         let proven = self.probe.trusted && !self.probe.has_failed();
         let undecided = if self.probe.trusted {
-            clusters(&self.undecided).into_iter().map(|cluster| cluster.hull).collect()
+            open.into_iter().map(|cluster| cluster.hull).collect()
         } else {
             vec![self.range]
         };

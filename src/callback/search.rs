@@ -123,10 +123,10 @@ pub fn invert(
     foot
 }
 
-/// Boxes that a query may look at.
-pub fn budget(options: &QueryOptions, trusted: bool) -> u64 {
+/// Boxes that a query may look at; `usual`: with bounds, when the options leave it open.
+pub fn budget(options: &QueryOptions, trusted: bool, usual: u64) -> u64 {
     match (options.budget, trusted) {
-        (0, true) => DEFAULT_BUDGET,
+        (0, true) => usual,
         (0, false) => DEFAULT_BUDGET_UNPROVEN,
         (budget, _) => budget,
     }
@@ -161,7 +161,7 @@ impl<'a> Search<'a> {
             range,
             method: options.method,
             gap,
-            budget: budget(options, probe.trusted),
+            budget: budget(options, probe.trusted, DEFAULT_BUDGET),
             boxes: 0,
             heap: BinaryHeap::new(),
             best: None,

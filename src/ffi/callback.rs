@@ -156,7 +156,7 @@ fn known<const N: usize>(bounds: [f64; N]) -> Option<[f64; N]> {
 
 /// Makes a curve from a function. It is used like any other curve; functions about degree, knots, poles and
 /// weights return FPT_UNSUPPORTED. A query looks at 20,000 boxes of parameters by default when a bound is
-/// given, at 2,000 when there is none; finite differences use steps of 2^-17 of the domain for first
+/// given (a preimage at 100,000), at 2,000 when there is none; finite differences use steps of 2^-17 of the domain for first
 /// derivatives and for derivatives of given ones, 2^-13 for second differences of points, one-sided at the
 /// ends. The function is called 129 times or more, for the box and to see whether the curve is closed.
 ///

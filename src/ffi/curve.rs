@@ -186,7 +186,8 @@ pub unsafe extern "C" fn fpt_curve_evaluate(
 /// @param count        may be 0
 /// @param derivatives  highest order d, at most 31
 /// @param out          count*3*(d + 1) numbers, the values of parameter i at i*3*(d + 1); must not
-///                     overlap `parameters`
+///                     overlap `parameters`. Where a callback fails: FPT_INVALID_ARGUMENT, the values
+///                     before are written
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]

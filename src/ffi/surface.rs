@@ -214,7 +214,8 @@ pub unsafe extern "C" fn fpt_surface_evaluate(
 /// @param count        pairs; may be 0
 /// @param derivatives  highest total order d, at most 31
 /// @param out          count*n numbers with n = 3*(d + 1)*(d + 2)/2, the values of pair i at i*n; must
-///                     not overlap `parameters`
+///                     not overlap `parameters`. Where a callback fails: FPT_INVALID_ARGUMENT, the
+///                     values before are written
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
