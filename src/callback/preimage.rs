@@ -117,30 +117,24 @@ impl Request<'_> {
             kept.push(range);
             return;
         }
-        let mut range = range;
-        if let Some(curvature) = view.convexity() {
-            match self.cut(&view, range, curvature) {
-                None => return,
-                Some(less) => {
-                    let smaller = (0..2).any(|k| {
-                        less[2 * k + 1] - less[2 * k] < 0.25 * (range[2 * k + 1] - range[2 * k])
-                    });
-                    range = less;
-                    if smaller {
-                        next.push(range);
-                        return;
-                    }
-                }
-            }
+        let Some(less) = self.cut(&view, range) else { return };
+        let shrunk = |k: usize| {
+            let width = range[2 * k + 1] - range[2 * k];
+            width > 0.0 && less[2 * k + 1] - less[2 * k] < 0.25 * width
+        };
+        if shrunk(0) || shrunk(1) {
+            next.push(less);
+            return;
         }
-        match halves(range, view.longer()) {
+        match halves(less, view.longer()) {
             Some(parts) => next.extend(parts),
-            None => kept.push(range),
+            None => kept.push(less),
         }
     }
 
-    /// What of a box on which f is convex can lie within the tolerance; `None`: nothing.
-    fn cut(&self, view: &View, range: [f64; 4], curvature: f64) -> Option<[f64; 4]> {
+    /// What of a box can lie within the tolerance, where f is convex; `None`: nothing.
+    fn cut(&self, view: &View, range: [f64; 4]) -> Option<[f64; 4]> {
+        let Some(curvature) = view.convexity() else { return Some(range) };
         let place = self.probe.refined(view.centre, range, self.options.method, None);
         let Some(place) = place else { return Some(range) };
         let at = [place.at[0], place.at[0], place.at[1], place.at[1]];
