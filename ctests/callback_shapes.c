@@ -194,6 +194,70 @@ static void what_belongs_to_splines_is_unsupported(void) {
     CHECK(user.released == 2);
 }
 
+static int never(void *user) { return *(int *)user; }
+
+/* The members of a set, which is released; -1 when the status is not the expected one. */
+static long members_of(fpt_status status, fpt_status expected, fpt_foot_set **made, fpt_foot_member *first) {
+    fpt_foot_set *set = *made;
+    size_t count = 0, open = 0;
+    CHECK_STATUS(status, expected);
+    *made = NULL;
+    if (status != expected || !set) return -1;
+    CHECK_OK(fpt_foot_set_count(set, &count));
+    CHECK_OK(fpt_foot_set_undecided_count(set, &open));
+    CHECK((open == 0) == (expected == FPT_OK));
+    if (count > 0) CHECK_OK(fpt_foot_set_get(set, 0, first));
+    if (open > 0) {
+        double area[4];
+        CHECK_OK(fpt_foot_set_undecided_get(set, 0, area));
+        CHECK(area[0] < area[1]);
+    }
+    fpt_foot_set_free(set);
+    return (long)count;
+}
+
+static void sets_work_too(void) {
+    for (int with_bounds = 0; with_bounds <= 1; with_bounds++) {
+        struct user user = {1.25, 1, 0};
+        const fpt_curve_callback of_curve = circle_callback(&user, with_bounds);
+        const fpt_surface_callback of_surface = torus_callback(&user, with_bounds);
+        const fpt_status expected = with_bounds ? FPT_OK : FPT_BUDGET_EXHAUSTED;
+        const double on_circle[3] = {0, 1.25, 0}, on_seam[3] = {4.25, 0, 0}, query[3] = {4, 1, 2}, up[3] = {0, 0, 1};
+        fpt_curve *curve = NULL;
+        fpt_surface *surface = NULL;
+        fpt_foot_set *set = NULL;
+        fpt_foot_member first;
+        fpt_foot_point foot;
+        CHECK_OK(fpt_curve_from_callback(&of_curve, &curve));
+        CHECK_OK(fpt_surface_from_callback(&of_surface, &surface));
+        CHECK(members_of(fpt_curve_preimage(curve, on_circle, 0, NULL, &set), expected, &set, &first) == 1);
+        CHECK_NEAR(first.foot.u, 0.5 * PI, 1e-9);
+        CHECK(first.u[0] <= first.foot.u && first.foot.u <= first.u[1]);
+        CHECK(members_of(fpt_surface_preimage(surface, on_seam, 0, NULL, &set), expected, &set, &first) == 4);
+        CHECK(first.foot.u == 0 && first.foot.v == 0);
+        CHECK(members_of(fpt_curve_extrema(curve, query, NULL, &set), expected, &set, &first) == 2);
+        CHECK(first.nature == FPT_NATURE_MINIMUM);
+        CHECK(members_of(fpt_surface_extrema(surface, query, NULL, &set), expected, &set, &first) == 4);
+        CHECK_NEAR(first.foot.distance, torus_distance(query, 1.25), 1e-9);
+        CHECK(first.nature == FPT_NATURE_MINIMUM && first.kind == FPT_MEMBER_POINT);
+        fpt_extrema_options options;
+        fpt_extrema_options_init(&options, sizeof options);
+        options.minima_only = 1;
+        CHECK(members_of(fpt_surface_extrema(surface, query, &options, &set), expected, &set, &first) == 1);
+        int stop = 1;
+        options.should_stop = never;
+        options.user = &stop;
+        CHECK_STATUS(fpt_surface_extrema(surface, query, &options, &set), FPT_CANCELLED);
+        CHECK_ERROR(fpt_surface_on_line(surface, query, up, NULL, 0, NULL, &set), FPT_UNSUPPORTED, "given by a function");
+        CHECK_ERROR(fpt_curve_on_line(curve, query, up, NULL, 0, NULL, &set), FPT_UNSUPPORTED, "given by a function");
+        CHECK_ERROR(fpt_curve_project(curve, query, 1, up, NULL, &foot), FPT_UNSUPPORTED, "given by a function");
+        CHECK_ERROR(fpt_surface_project(surface, query, 1, up, NULL, &foot), FPT_UNSUPPORTED, "given by a function");
+        fpt_curve_free(curve);
+        fpt_surface_free(surface);
+        CHECK(user.released == 2);
+    }
+}
+
 static void a_bad_curve_is_refused(void) {
     struct user user = {1, 2, 0};
     const fpt_curve_callback good = circle_callback(&user, 1);
@@ -274,8 +338,6 @@ static void a_function_may_fail(void) {
     fpt_surface_free(surface);
     CHECK(user.released == 1);
 }
-
-static int never(void *user) { return *(int *)user; }
 
 /* Options work as for splines: box, hints, local scope, cancelling. */
 static void options_are_respected(void) {
@@ -387,6 +449,7 @@ int main(void) {
     RUN(a_curve_answers_like_any_other);
     RUN(a_surface_answers_like_any_other);
     RUN(what_belongs_to_splines_is_unsupported);
+    RUN(sets_work_too);
     RUN(a_bad_curve_is_refused);
     RUN(a_bad_surface_is_refused);
     RUN(a_function_may_fail);

@@ -58,6 +58,8 @@ mod extrema;
 use crate::bounds::{Aabb, Vector};
 use crate::closest::{FootPoint, QueryOptions, Trace};
 use crate::error::Error;
+use crate::extrema::ExtremaOptions;
+use crate::index::Poll;
 use crate::set::FootSet;
 use source::{Shape, Source};
 
@@ -190,13 +192,30 @@ impl CallbackCurve {
     }
 
     /// All parameters whose point lies within `tolerance` of the query (0: 1e-7 of the box diagonal), ordered by u.
-    pub fn preimage(&self, query: Vector, tolerance: f64, options: &QueryOptions) -> FootSet {
-        preimage::preimage(&self.shape, query, tolerance, options)
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] when `poll` said so.
+    pub fn preimage(
+        &self,
+        query: Vector,
+        tolerance: f64,
+        options: &QueryOptions,
+        poll: Poll,
+    ) -> Result<FootSet, Error> {
+        preimage::preimage(&self.shape, query, tolerance, options, poll)
     }
 
     /// All stationary points of the distance, nearest first.
-    pub fn extrema(&self, query: Vector, options: &QueryOptions) -> FootSet {
-        extrema::extrema(&self.shape, query, options)
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] when `poll` said so.
+    pub fn extrema(
+        &self,
+        query: Vector,
+        options: &ExtremaOptions,
+        poll: Poll,
+    ) -> Result<FootSet, Error> {
+        extrema::extrema(&self.shape, query, options, poll)
     }
 }
 
@@ -293,12 +312,29 @@ impl CallbackSurface {
 
     /// All parameters whose point lies within `tolerance` of the query (0: 1e-7 of the box diagonal), ordered by u, then
     /// by v.
-    pub fn preimage(&self, query: Vector, tolerance: f64, options: &QueryOptions) -> FootSet {
-        preimage::preimage(&self.shape, query, tolerance, options)
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] when `poll` said so.
+    pub fn preimage(
+        &self,
+        query: Vector,
+        tolerance: f64,
+        options: &QueryOptions,
+        poll: Poll,
+    ) -> Result<FootSet, Error> {
+        preimage::preimage(&self.shape, query, tolerance, options, poll)
     }
 
     /// All stationary points of the distance, nearest first.
-    pub fn extrema(&self, query: Vector, options: &QueryOptions) -> FootSet {
-        extrema::extrema(&self.shape, query, options)
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] when `poll` said so.
+    pub fn extrema(
+        &self,
+        query: Vector,
+        options: &ExtremaOptions,
+        poll: Poll,
+    ) -> Result<FootSet, Error> {
+        extrema::extrema(&self.shape, query, options, poll)
     }
 }

@@ -8,7 +8,8 @@
 //!   C call -> guard -> arguments (pointers, counts, strides)   memory.rs, limits.rs
 //!                   -> options, records (struct layouts)       options.rs, records.rs
 //!                   -> spline or function behind a handle      form.rs
-//!                   -> Curve, Surface, closest, batch          curve.rs, surface.rs, callback.rs, query.rs
+//!                   -> Curve, Surface, closest, batch          curve.rs, surface.rs, callback.rs,
+//!                                                              query.rs, sets.rs, lines.rs
 //!          <- fpt_status, text of a failure for fpt_last_error
 //! ```
 //!
@@ -28,6 +29,8 @@ mod curve;
 mod surface;
 mod callback;
 mod query;
+mod sets;
+mod lines;
 #[cfg(test)]
 mod tests;
 
@@ -69,6 +72,8 @@ use fpt_status_code::*;
 enum Failure {
     Null(&'static str),
     Refused(Error),
+    /// A set that was handed over without being complete.
+    Budget(String),
     Internal(String),
 }
 
@@ -90,6 +95,7 @@ impl Failure {
             Self::Refused(Error::Unsupported(_)) => FPT_UNSUPPORTED,
             Self::Refused(Error::OutOfMemory) => FPT_OUT_OF_MEMORY,
             Self::Refused(Error::Cancelled) => FPT_CANCELLED,
+            Self::Budget(_) => FPT_BUDGET_EXHAUSTED,
             Self::Internal(_) => FPT_INTERNAL,
         }
     }
@@ -100,6 +106,7 @@ impl fmt::Display for Failure {
         match self {
             Self::Null(name) => write!(f, "{name}: must not be NULL"),
             Self::Refused(error) => error.fmt(f),
+            Self::Budget(text) => f.write_str(text),
             Self::Internal(text) => write!(f, "internal error, please report: {text}"),
         }
     }
@@ -247,7 +254,7 @@ pub extern "C" fn fpt_panic_test(threads: u32) -> fpt_status {
         let unreached = crate::closest::FootPoint::unreached();
         let mut out = [unreached; 1024];
         // Tiles of 128 records go round the threads: this one lies in the second.
-        let work = |i, _: &mut _| {
+        let work = |i, _: &mut ()| {
             if i == 200 { panic!("record {i} panics on purpose") } else { unreached }
         };
         Ok(crate::batch::run(&mut out, threads as usize, &work, &mut |_| false)?)

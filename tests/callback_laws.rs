@@ -4,6 +4,7 @@ mod shapes;
 
 use footpoint::callback::{CallbackCurve, CallbackSurface, CurveBounds, SurfaceBounds};
 use footpoint::closest::{FootPoint, QueryOptions, flag};
+use footpoint::extrema::ExtremaOptions;
 use shapes::asked::bits;
 use shapes::{Random, Vector, norm, sub};
 
@@ -161,7 +162,9 @@ fn a_planted_parameter_is_in_the_preimage_and_members_are_within_the_tolerance()
             let at = [r.between(-1.0, 2.0), r.between(0.0, 2.0)];
             let point = surface.evaluate(at[0], at[1]).unwrap();
             let tolerance = r.scale(-7.0, -2.0);
-            let set = surface.preimage(point, tolerance, &QueryOptions::default());
+            let set = surface
+                .preimage(point, tolerance, &QueryOptions::default(), &mut || false)
+                .unwrap();
             let holds = |u: [f64; 2], v: [f64; 2]| {
                 u[0] <= at[0] && at[0] <= u[1] && v[0] <= at[1] && at[1] <= v[1]
             };
@@ -186,7 +189,7 @@ fn every_stationary_place_that_newton_finds_is_in_the_extrema() {
         let mut r = Random(seed + 4000);
         for _ in 0..2 {
             let q = waves.query(&mut r);
-            let set = surface.extrema(q, &QueryOptions::default());
+            let set = surface.extrema(q, &ExtremaOptions::default(), &mut || false).unwrap();
             complete += usize::from(set.is_complete());
             for k in 0..15 * 15 {
                 let start =
@@ -249,7 +252,7 @@ fn answers_have_the_same_bits_on_any_thread() {
         }
     });
     assert_eq!(
-        surface.extrema(queries[0], &QueryOptions::default()),
-        surface.extrema(queries[0], &QueryOptions::default())
+        surface.extrema(queries[0], &ExtremaOptions::default(), &mut || false).unwrap(),
+        surface.extrema(queries[0], &ExtremaOptions::default(), &mut || false).unwrap()
     );
 }

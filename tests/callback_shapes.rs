@@ -5,6 +5,8 @@ mod shapes;
 
 use footpoint::callback::{CallbackCurve, CallbackSurface, CurveBounds, SurfaceBounds};
 use footpoint::closest::{FootPoint, QueryOptions, Scope, flag};
+use footpoint::error::Error;
+use footpoint::extrema::ExtremaOptions;
 use footpoint::set::{FootSet, Kind, Nature};
 use functions::{
     RADII, ellipse_offset, figure_eight, greatest, line, paraboloid, plane, ring, sphere,
@@ -206,7 +208,7 @@ fn a_budget_that_runs_out_is_told_and_leaves_a_sound_bound() {
             assert!(foot.lower_bound <= torus_distance(q) + 1e-12);
             assert!(!has(&foot, flag::NOT_PROVEN) || has(&foot, flag::BUDGET), "{foot:?}");
         }
-        let set = shape.preimage([3.1, 0.2, 1.24], 0.1, &options);
+        let set = shape.preimage([3.1, 0.2, 1.24], 0.1, &options, &mut || false).unwrap();
         assert!(!set.is_complete());
     }
 }
@@ -216,8 +218,20 @@ fn queries_that_are_not_finite_or_too_large_are_marked() {
     let shape = torus(1, torus_bounds());
     for x in [f64::NAN, f64::INFINITY, -2e100] {
         assert!(has(&on(&shape, [0.0, x, 0.0]), flag::BAD_QUERY));
-        assert!(shape.preimage([x, 0.0, 0.0], 0.0, &QueryOptions::default()).members.is_empty());
-        assert!(shape.extrema([x, 0.0, 0.0], &QueryOptions::default()).members.is_empty());
+        assert!(
+            shape
+                .preimage([x, 0.0, 0.0], 0.0, &QueryOptions::default(), &mut || false)
+                .unwrap()
+                .members
+                .is_empty()
+        );
+        assert!(
+            shape
+                .extrema([x, 0.0, 0.0], &ExtremaOptions::default(), &mut || false)
+                .unwrap()
+                .members
+                .is_empty()
+        );
     }
     let far = on(&shape, [1e90, 0.0, 0.0]);
     assert!(far.distance == 1e90 && far.lower_bound <= 1e90 && far.lower_bound > 0.9e90, "{far:?}");
@@ -235,7 +249,7 @@ fn a_torus_has_four_stationary_points() {
     {
         let shape = torus(orders, bounds);
         for q in points(30, 5.0, 11) {
-            let set = shape.extrema(q, &QueryOptions::default());
+            let set = shape.extrema(q, &ExtremaOptions::default(), &mut || false).unwrap();
             assert_eq!(set.is_complete(), bounds.second.is_some(), "{set:?}");
             let [big, small] = RADII;
             let rho = q[0].hypot(q[1]);
@@ -259,9 +273,8 @@ fn a_torus_has_four_stationary_points() {
 #[test]
 fn a_sphere_has_two_stationary_points_and_its_centre_a_region() {
     let shape = sphere(1.5, true);
-    let options = QueryOptions::default();
     for q in points(30, 3.0, 12) {
-        let set = shape.extrema(q, &options);
+        let set = shape.extrema(q, &ExtremaOptions::default(), &mut || false).unwrap();
         let found = natures(&set);
         assert!(found.len() == 2, "{q:?} {set:#?}");
         // Near the axis the poles blur: more boxes than a request has by default.
@@ -269,21 +282,21 @@ fn a_sphere_has_two_stationary_points_and_its_centre_a_region() {
         assert_eq!([found[0].1, found[1].1], [Nature::Minimum, Nature::Maximum]);
         assert!((found[1].0 - norm(q) - 1.5).abs() < 1e-9);
     }
-    let poles = shape.extrema([0.0, 0.0, 0.3], &options);
+    let poles = shape.extrema([0.0, 0.0, 0.3], &ExtremaOptions::default(), &mut || false).unwrap();
     assert_eq!(poles.members.len(), 2, "{poles:#?}");
     assert!(poles.members.iter().all(|m| m.kind == Kind::ArcU && has(&m.foot, flag::COLLAPSED)));
     assert_eq!(
         [poles.members[0].nature, poles.members[1].nature],
         [Nature::Minimum, Nature::Maximum]
     );
-    let centre = shape.extrema([0.0; 3], &options);
+    let centre = shape.extrema([0.0; 3], &ExtremaOptions::default(), &mut || false).unwrap();
     assert!(centre.members.iter().any(|m| m.kind == Kind::Region), "{centre:#?}");
 }
 
 #[test]
 fn the_axis_of_a_torus_has_circles_of_stationary_points() {
     let shape = torus(2, torus_bounds());
-    let set = shape.extrema([0.0, 0.0, 0.7], &QueryOptions::default());
+    let set = shape.extrema([0.0, 0.0, 0.7], &ExtremaOptions::default(), &mut || false).unwrap();
     let arcs: Vec<_> = set.members.iter().filter(|m| m.kind == Kind::ArcU).collect();
     assert_eq!(arcs.len(), 2, "{set:#?}");
     for (arc, far) in arcs.iter().zip([-1.0, 1.0]) {
@@ -295,7 +308,9 @@ fn the_axis_of_a_torus_has_circles_of_stationary_points() {
 #[test]
 fn a_plane_square_has_its_borders_and_corners() {
     for known in [true, false] {
-        let set = plane(known).extrema([0.4, 0.45, 1.0], &QueryOptions::default());
+        let set = plane(known)
+            .extrema([0.4, 0.45, 1.0], &ExtremaOptions::default(), &mut || false)
+            .unwrap();
         assert_eq!(set.is_complete(), known);
         let count = |nature| set.members.iter().filter(|m| m.nature == nature).count();
         assert_eq!(set.members.len(), 9, "{set:#?}");
@@ -308,25 +323,57 @@ fn a_plane_square_has_its_borders_and_corners() {
 
 #[test]
 fn curves_have_their_stationary_points() {
-    let options = QueryOptions::default();
     let circle = ring(2.0, TAU, true);
     for q in points(40, 3.0, 13) {
-        let found = natures(&circle.extrema(q, &options));
+        let found = natures(&circle.extrema(q, &ExtremaOptions::default(), &mut || false).unwrap());
         let rho = q[0].hypot(q[1]);
         assert_eq!(found.len(), 2, "{q:?} {found:?}");
         assert!((found[0].0 - (rho - 2.0).hypot(q[2])).abs() < 1e-9);
         assert!((found[1].0 - (rho + 2.0).hypot(q[2])).abs() < 1e-9);
         assert_eq!([found[0].1, found[1].1], [Nature::Minimum, Nature::Maximum]);
     }
-    let axis = circle.extrema([0.0, 0.0, 1.0], &options);
+    let axis = circle.extrema([0.0, 0.0, 1.0], &ExtremaOptions::default(), &mut || false).unwrap();
     assert!(axis.members.len() == 1 && axis.members[0].kind == Kind::ArcU, "{axis:#?}");
-    let segment = line().extrema([0.3, 1.0, 0.0], &options);
+    let segment =
+        line().extrema([0.3, 1.0, 0.0], &ExtremaOptions::default(), &mut || false).unwrap();
     let [near, first, last] = natures(&segment)[..] else { panic!("{segment:#?}") };
     assert_eq!([near.1, first.1, last.1], [Nature::Minimum, Nature::Maximum, Nature::Maximum]);
     // Inside the evolute of an ellipse: four; outside: two.
     let ellipse = ellipse_offset(3.0, 2.0, 0.0, true);
-    assert_eq!(ellipse.extrema([0.1, 0.2, 0.0], &options).members.len(), 4);
-    assert_eq!(ellipse.extrema([2.5, 1.8, 0.0], &options).members.len(), 2);
+    assert_eq!(
+        ellipse
+            .extrema([0.1, 0.2, 0.0], &ExtremaOptions::default(), &mut || false)
+            .unwrap()
+            .members
+            .len(),
+        4
+    );
+    assert_eq!(
+        ellipse
+            .extrema([2.5, 1.8, 0.0], &ExtremaOptions::default(), &mut || false)
+            .unwrap()
+            .members
+            .len(),
+        2
+    );
+}
+
+#[test]
+fn extrema_can_be_filtered_and_sets_can_be_stopped() {
+    let (shape, q) = (torus(1, torus_bounds()), [4.0, 1.0, 2.0]);
+    let ask = |options: ExtremaOptions| shape.extrema(q, &options, &mut || false).unwrap();
+    let count = |options| ask(options).members.len();
+    assert_eq!(count(ExtremaOptions { minima_only: true, ..ExtremaOptions::default() }), 1);
+    assert_eq!(count(ExtremaOptions { nearest: 3, ..ExtremaOptions::default() }), 3);
+    assert_eq!(count(ExtremaOptions { radius: 4.0, ..ExtremaOptions::default() }), 2);
+    let domain = Some([1.0, 2.0, 1.0, 2.0]);
+    let part = ask(ExtremaOptions { domain, ..ExtremaOptions::default() });
+    assert!(part.is_complete() && part.members.len() >= 4, "{part:#?}");
+    assert!(part.members.iter().all(|m| (1.0..=2.0).contains(&m.foot.u)));
+    let stopped = shape.extrema(q, &ExtremaOptions::default(), &mut || true);
+    assert_eq!(stopped, Err(Error::Cancelled));
+    let stopped = shape.preimage(q, 0.1, &QueryOptions::default(), &mut || true);
+    assert_eq!(stopped, Err(Error::Cancelled));
 }
 
 #[test]
@@ -337,7 +384,9 @@ fn preimages_on_a_torus_are_one_place_and_on_its_seams_two_or_four() {
         let mut random = Random(14);
         for _ in 0..40 {
             let at = [random.between(0.01, TAU - 0.01), random.between(0.01, TAU - 0.01)];
-            let set = shape.preimage(shape.evaluate(at[0], at[1]).unwrap(), 0.0, &options);
+            let set = shape
+                .preimage(shape.evaluate(at[0], at[1]).unwrap(), 0.0, &options, &mut || false)
+                .unwrap();
             assert_eq!(set.members.len(), 1, "{at:?} {set:#?}");
             assert_eq!(set.is_complete(), bounds.second.is_some());
             let member = &set.members[0];
@@ -346,29 +395,40 @@ fn preimages_on_a_torus_are_one_place_and_on_its_seams_two_or_four() {
             assert!(member.kind == Kind::Point && member.u[1] - member.u[0] < 1e-4);
         }
         for (at, count) in [([0.0, 1.0], 2), ([2.0, 0.0], 2), ([0.0, TAU], 4)] {
-            let set = shape.preimage(shape.evaluate(at[0], at[1]).unwrap(), 0.0, &options);
+            let set = shape
+                .preimage(shape.evaluate(at[0], at[1]).unwrap(), 0.0, &options, &mut || false)
+                .unwrap();
             assert_eq!(set.members.len(), count, "{at:?} {set:#?}");
             assert!((set.members[0].foot.u - at[0]).abs() < 1e-6);
         }
-        assert!(shape.preimage([3.0, 0.0, 0.0], 0.0, &options).members.is_empty());
+        assert!(
+            shape
+                .preimage([3.0, 0.0, 0.0], 0.0, &options, &mut || false)
+                .unwrap()
+                .members
+                .is_empty()
+        );
     }
 }
 
 #[test]
 fn preimages_at_crossings_poles_and_double_covers() {
     let options = QueryOptions::default();
-    let crossing = figure_eight().preimage([0.0; 3], 0.0, &options);
+    let crossing = figure_eight().preimage([0.0; 3], 0.0, &options, &mut || false).unwrap();
     assert!(crossing.is_complete(), "{crossing:#?}");
     let places: Vec<f64> = crossing.members.iter().map(|m| m.foot.u).collect();
     assert!(places.len() == 2 && (places[0] - 0.5 * PI).abs() < 1e-6, "{crossing:#?}");
     assert!((places[1] - 1.5 * PI).abs() < 1e-6);
 
     let twice = ring(2.0, 2.0 * TAU, true);
-    let covered = twice.preimage([0.0, 2.0, 0.0], 0.0, &options);
+    let covered = twice.preimage([0.0, 2.0, 0.0], 0.0, &options, &mut || false).unwrap();
     assert!(covered.is_complete() && covered.members.len() == 2, "{covered:#?}");
-    assert_eq!(twice.preimage([2.0, 0.0, 0.0], 0.0, &options).members.len(), 3);
+    assert_eq!(
+        twice.preimage([2.0, 0.0, 0.0], 0.0, &options, &mut || false).unwrap().members.len(),
+        3
+    );
 
-    let pole = sphere(1.5, true).preimage([0.0, 0.0, 1.5], 1e-4, &options);
+    let pole = sphere(1.5, true).preimage([0.0, 0.0, 1.5], 1e-4, &options, &mut || false).unwrap();
     assert!(pole.is_complete(), "{pole:#?}");
     let [member] = &pole.members[..] else { panic!("{pole:#?}") };
     assert_eq!((member.kind, member.u), (Kind::ArcU, [0.0, TAU]));
@@ -399,15 +459,22 @@ fn a_function_that_fails_takes_the_proof_away_and_not_the_foot() {
         let foot = on(&shape, corner);
         assert!(foot.distance.is_finite() && foot.distance < 0.6, "{foot:?}");
         assert!(has(&foot, flag::NOT_PROVEN) && foot.lower_bound == 0.0, "{foot:?}");
-        let set = shape.preimage([corner[0], corner[1], 0.0], 1e-3, &QueryOptions::default());
+        let set = shape
+            .preimage([corner[0], corner[1], 0.0], 1e-3, &QueryOptions::default(), &mut || false)
+            .unwrap();
         assert!(!set.is_complete());
-        assert!(!shape.extrema(corner, &QueryOptions::default()).is_complete());
+        assert!(
+            !shape
+                .extrema(corner, &ExtremaOptions::default(), &mut || false)
+                .unwrap()
+                .is_complete()
+        );
     }
     down.store(true, Ordering::Relaxed);
     let none = on(&shape, [0.5, 0.25, 1.0]);
     assert!(none.u.is_nan() && none.distance.is_nan() && none.lower_bound == 0.0);
     assert!(has(&none, flag::NOT_PROVEN));
-    let set = shape.extrema([0.5, 0.25, 1.0], &QueryOptions::default());
+    let set = shape.extrema([0.5, 0.25, 1.0], &ExtremaOptions::default(), &mut || false).unwrap();
     assert!(set.members.is_empty() && !set.is_complete());
 }
 

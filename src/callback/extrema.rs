@@ -22,11 +22,15 @@ use super::cell::{Probe, View, halves};
 use super::cluster::{Cluster, clusters, hull};
 use super::foot::{Place, is_bad};
 use super::nature::{LEAST_COSINE, LEAST_CURVATURE, verdict};
-use super::preimage::kind;
+use super::preimage::{POLLED, kind};
 use super::search::budget;
 use super::source::Shape;
 use crate::bounds::{Vector, dot, norm, sub};
-use crate::closest::{QueryOptions, flag};
+use crate::closest::flag;
+use crate::error::Error;
+use crate::extrema::ExtremaOptions;
+use crate::index::Poll;
+use crate::refine::Method;
 use crate::set::{FootSet, Member};
 
 /// Boxes of this share of the domain are not halved any more.
@@ -48,7 +52,7 @@ const EDGE_SAMPLES: usize = 24;
 /// One request.
 struct Request<'a> {
     probe: &'a Probe<'a>,
-    options: &'a QueryOptions,
+    options: &'a ExtremaOptions,
     range: [f64; 4],
     boxes: u64,
     budget: u64,
@@ -57,18 +61,23 @@ struct Request<'a> {
 }
 
 /// All stationary points, nearest first.
-pub fn extrema(shape: &Shape, query: Vector, options: &QueryOptions) -> FootSet {
+pub fn extrema(
+    shape: &Shape,
+    query: Vector,
+    options: &ExtremaOptions,
+    poll: Poll,
+) -> Result<FootSet, Error> {
     if is_bad(query) {
-        return FootSet::default();
+        return Ok(FootSet::default());
     }
     let probe = Probe::curved(shape, query);
-    let range = shape.range(options);
+    let range = shape.range(options.domain);
     let mut request = Request {
         probe: &probe,
         options,
         range,
         boxes: 0,
-        budget: budget(options, probe.trusted, DEFAULT_BUDGET),
+        budget: budget(options.budget, probe.trusted, DEFAULT_BUDGET),
         members: Vec::new(),
         undecided: Vec::new(),
     };
@@ -87,11 +96,11 @@ pub fn extrema(shape: &Shape, query: Vector, options: &QueryOptions) -> FootSet 
         if dims == 1 {
             request.corner([range[side], 0.0]);
         } else {
-            request.stratum(face, [k == 1, k == 0]);
+            request.stratum(face, [k == 1, k == 0], poll)?;
         }
     }
-    request.stratum(range, [true, dims == 2]);
-    request.finish()
+    request.stratum(range, [true, dims == 2], poll)?;
+    Ok(request.finish())
 }
 
 impl Request<'_> {
@@ -179,10 +188,10 @@ impl Request<'_> {
 
     /// The stationary points of one stratum, over its free parameters. Clusters in which the iteration finds nothing are
     /// halved on: mostly they hold nothing.
-    fn stratum(&mut self, range: [f64; 4], free: [bool; 2]) {
+    fn stratum(&mut self, range: [f64; 4], free: [bool; 2], poll: Poll) -> Result<(), Error> {
         let (mut boxes, mut resolution) = (vec![range], RESOLUTION);
         for _ in 0..ROUNDS {
-            let (small, complete) = self.subdivide(boxes, free, resolution);
+            let (small, complete) = self.subdivide(boxes, free, resolution, poll)?;
             boxes = Vec::new();
             for cluster in clusters(&small) {
                 if !self.resolve(&small, &cluster, free) {
@@ -195,6 +204,7 @@ impl Request<'_> {
             resolution *= RESOLUTION_STEP;
         }
         self.undecided.append(&mut boxes);
+        Ok(())
     }
 
     /// Halves down to the resolution, level by level. False when the budget has cut it short: then large boxes are left.
@@ -203,20 +213,24 @@ impl Request<'_> {
         mut boxes: Vec<[f64; 4]>,
         free: [bool; 2],
         resolution: f64,
-    ) -> (Vec<[f64; 4]>, bool) {
+        poll: Poll,
+    ) -> Result<(Vec<[f64; 4]>, bool), Error> {
         let mut small = Vec::new();
         while !boxes.is_empty() {
             if self.boxes + boxes.len() as u64 > self.budget {
                 small.append(&mut boxes);
-                return (small, false);
+                return Ok((small, false));
             }
             let mut next = Vec::new();
             for area in boxes {
+                if self.boxes % POLLED == 0 && poll() {
+                    return Err(Error::Cancelled);
+                }
                 self.examine(area, free, resolution, &mut small, &mut next);
             }
             boxes = next;
         }
-        (small, true)
+        Ok((small, true))
     }
 
     fn examine(
@@ -264,7 +278,7 @@ impl Request<'_> {
         free: [bool; 2],
         curvature: f64,
     ) -> Option<Option<[f64; 4]>> {
-        let place = self.probe.refined(view.centre, range, self.options.method, None)?;
+        let place = self.probe.refined(view.centre, range, Method::Auto, None)?;
         let there = View::new(self.probe, [place.at[0], place.at[0], place.at[1], place.at[1]])?;
         let mut squares = 0.0;
         for k in (0..2).filter(|&k| free[k] && view.half[k] > 0.0) {
@@ -356,7 +370,7 @@ impl Request<'_> {
     }
 
     fn is_even(&self, a: f64, b: f64) -> bool {
-        let slack = self.probe.shape.accuracy(self.options) + 1e-12 * a.max(b);
+        let slack = self.probe.shape.accuracy(self.options.accuracy) + 1e-12 * a.max(b);
         (a - b).abs() <= slack
     }
 
@@ -424,10 +438,6 @@ impl Request<'_> {
                 None => members.push(*member),
             }
         }
-        members.sort_by(|a, b| {
-            let by_place = a.foot.u.total_cmp(&b.foot.u).then(a.foot.v.total_cmp(&b.foot.v));
-            a.foot.distance.total_cmp(&b.foot.distance).then(by_place)
-        });
         for member in &mut members {
             member.foot.iterations = self.probe.taken();
             member.foot.flags |= if proven { 0 } else { flag::NOT_PROVEN };
@@ -437,7 +447,7 @@ impl Request<'_> {
         } else {
             vec![self.range]
         };
-        FootSet { members, undecided }
+        self.options.finish(members, undecided)
     }
 
     /// Whether two members that are the same point lie on the two sides of a seam.

@@ -23,11 +23,16 @@ use super::search::budget;
 use super::source::Shape;
 use crate::bounds::Vector;
 use crate::closest::{QueryOptions, flag};
+use crate::error::Error;
+use crate::index::Poll;
 use crate::set::{FootSet, Kind, Member};
 
 /// Boxes whose points lie within this share of the tolerance of each other are kept whole; first, and for clusters
 /// where nothing was found.
 const SHARES: [f64; 2] = [0.5, 1.0 / 32.0];
+
+/// Boxes between two questions whether to stop.
+pub const POLLED: u64 = 256;
 
 /// A parameter varies in a member that is wider than the one share of the domain although that carries the point only
 /// the other share of the tolerance.
@@ -46,24 +51,30 @@ struct Request<'a> {
 }
 
 /// All parameters within the tolerance, ordered by u, then v.
-pub fn preimage(shape: &Shape, query: Vector, tolerance: f64, options: &QueryOptions) -> FootSet {
+pub fn preimage(
+    shape: &Shape,
+    query: Vector,
+    tolerance: f64,
+    options: &QueryOptions,
+    poll: Poll,
+) -> Result<FootSet, Error> {
     if is_bad(query) {
-        return FootSet::default();
+        return Ok(FootSet::default());
     }
     let probe = Probe::new(shape, query);
     let mut request = Request {
         probe: &probe,
         options,
-        range: shape.range(options),
+        range: shape.range(options.domain),
         tolerance: shape.tolerance(tolerance),
         boxes: 0,
-        budget: budget(options, probe.trusted, DEFAULT_BUDGET_PREIMAGE),
+        budget: budget(options.budget, probe.trusted, DEFAULT_BUDGET_PREIMAGE),
         undecided: Vec::new(),
     };
     let mut members = Vec::new();
     let mut boxes = vec![request.range];
     for (round, share) in SHARES.into_iter().enumerate() {
-        let kept = request.subdivide(boxes, share);
+        let kept = request.subdivide(boxes, share, poll)?;
         boxes = Vec::new();
         for cluster in clusters(&kept) {
             match request.member(&kept, &cluster) {
@@ -73,12 +84,17 @@ pub fn preimage(shape: &Shape, query: Vector, tolerance: f64, options: &QueryOpt
             }
         }
     }
-    request.finish(members)
+    Ok(request.finish(members))
 }
 
 impl Request<'_> {
     /// Halves until every box is dropped or kept; what the budget leaves is undecided.
-    fn subdivide(&mut self, mut boxes: Vec<[f64; 4]>, share: f64) -> Vec<[f64; 4]> {
+    fn subdivide(
+        &mut self,
+        mut boxes: Vec<[f64; 4]>,
+        share: f64,
+        poll: Poll,
+    ) -> Result<Vec<[f64; 4]>, Error> {
         let mut kept = Vec::new();
         while !boxes.is_empty() {
             let mut next = Vec::new();
@@ -87,11 +103,14 @@ impl Request<'_> {
                     self.undecided.push(range);
                     continue;
                 }
+                if self.boxes % POLLED == 0 && poll() {
+                    return Err(Error::Cancelled);
+                }
                 self.examine(range, share, &mut kept, &mut next);
             }
             boxes = next;
         }
-        kept
+        Ok(kept)
     }
 
     fn examine(

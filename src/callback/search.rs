@@ -91,8 +91,8 @@ pub fn closest(
     }
     let probe = Probe::new(shape, query);
     let hint = hint.filter(|at| at.iter().all(|x| x.is_finite()));
-    let range = shape.range(options);
-    let allowed = shape.accuracy(options).max(4.0 * shape.rounding(query));
+    let range = shape.range(options.domain);
+    let allowed = shape.accuracy(options.accuracy).max(4.0 * shape.rounding(query));
     let mut search = Search::new(&probe, range, 0.5 * allowed, options);
     search.seed(hint, &mut trace);
     if options.scope == Scope::Global {
@@ -124,8 +124,8 @@ pub fn invert(
 }
 
 /// Boxes that a query may look at; `usual`: with bounds, when the options leave it open.
-pub fn budget(options: &QueryOptions, trusted: bool, usual: u64) -> u64 {
-    match (options.budget, trusted) {
+pub fn budget(asked: u64, trusted: bool, usual: u64) -> u64 {
+    match (asked, trusted) {
         (0, true) => usual,
         (0, false) => DEFAULT_BUDGET_UNPROVEN,
         (budget, _) => budget,
@@ -161,7 +161,7 @@ impl<'a> Search<'a> {
             range,
             method: options.method,
             gap,
-            budget: budget(options, probe.trusted, DEFAULT_BUDGET),
+            budget: budget(options.budget, probe.trusted, DEFAULT_BUDGET),
             boxes: 0,
             heap: BinaryHeap::new(),
             best: None,

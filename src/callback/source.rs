@@ -11,7 +11,7 @@
 
 use super::SurfaceBounds;
 use crate::bounds::{Aabb, Vector, add, norm, scaled, sub};
-use crate::closest::{GREATEST_COORDINATE, QueryOptions};
+use crate::closest::GREATEST_COORDINATE;
 use crate::curve::CLOSED_TOLERANCE;
 use crate::error::Error;
 use crate::surface::COLLAPSED_TOLERANCE;
@@ -275,9 +275,9 @@ impl Shape {
     }
 
     /// The box of parameters that a query is about.
-    pub fn range(&self, options: &QueryOptions) -> [f64; 4] {
+    pub fn range(&self, asked: Option<[f64; 4]>) -> [f64; 4] {
         let all = self.source.domain;
-        let Some(asked) = options.domain else { return all };
+        let Some(asked) = asked else { return all };
         let mut range = all;
         for k in 0..self.source.dims {
             range[2 * k] = asked[2 * k].clamp(all[2 * k], all[2 * k + 1]);
@@ -293,8 +293,8 @@ impl Shape {
     }
 
     /// Asked-for gap between distance and bound.
-    pub fn accuracy(&self, options: &QueryOptions) -> f64 {
-        if options.accuracy > 0.0 { options.accuracy } else { 1e-10 * self.survey.diagonal }
+    pub fn accuracy(&self, asked: f64) -> f64 {
+        if asked > 0.0 { asked } else { 1e-10 * self.survey.diagonal }
     }
 
     /// What counts as on the shape.

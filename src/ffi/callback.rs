@@ -17,8 +17,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A curve given by a function: the input of fpt_curve_from_callback. The numbers are copied, `user` is kept.
 ///
-/// The bounds are the caller's word. With one of them answers are proven, with neither every foot carries
-/// FPT_FOOT_NOT_PROVEN and lower_bound 0. A bound that is too small makes the proofs wrong.
+/// The bounds are the caller's word. With one of them answers are proven (extrema: with second_bound only), with
+/// neither every foot carries FPT_FOOT_NOT_PROVEN and lower_bound 0. A bound that is too small makes the proofs
+/// wrong.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct fpt_curve_callback {
@@ -49,8 +50,8 @@ pub struct fpt_curve_callback {
 
 /// A surface given by a function: the input of fpt_surface_from_callback. The numbers are copied, `user` is kept.
 ///
-/// The bounds are the caller's word. With one kind of them answers are proven, with neither every foot carries
-/// FPT_FOOT_NOT_PROVEN and lower_bound 0. A bound that is too small makes the proofs wrong. Bounds of the
+/// The bounds are the caller's word. With one kind of them answers are proven (extrema: with second_bounds only), with
+/// neither every foot carries FPT_FOOT_NOT_PROVEN and lower_bound 0. A bound that is too small makes the proofs wrong. Bounds of the
 /// second derivatives prove fast; with those of the first alone points on the surface are proven fast, but
 /// distances off the surface only roughly.
 #[repr(C)]
@@ -154,8 +155,8 @@ fn known<const N: usize>(bounds: [f64; N]) -> Option<[f64; N]> {
     (bounds != [0.0; N]).then_some(bounds)
 }
 
-/// Makes a curve from a function. It is used like any other curve; functions about degree, knots, poles and
-/// weights return FPT_UNSUPPORTED. A query looks at 20,000 boxes of parameters by default when a bound is
+/// Makes a curve from a function. It is used like any other curve; functions that need degree, knots, poles
+/// or weights return FPT_UNSUPPORTED. A query looks at 20,000 boxes of parameters by default when a bound is
 /// given (a preimage at 100,000), at 2,000 when there is none; finite differences use steps of 2^-17 of the domain for first
 /// derivatives and for derivatives of given ones, 2^-13 for second differences of points, one-sided at the
 /// ends. The function is called 129 times or more, for the box and to see whether the curve is closed.
@@ -194,8 +195,8 @@ pub unsafe extern "C" fn fpt_curve_from_callback(
     })
 }
 
-/// Makes a surface from a function. It is used like any other surface; functions about degrees, knots, poles
-/// and weights return FPT_UNSUPPORTED. Budget and finite differences are those of fpt_curve_from_callback. The
+/// Makes a surface from a function. It is used like any other surface; functions that need degrees, knots,
+/// poles or weights return FPT_UNSUPPORTED. Budget and finite differences are those of fpt_curve_from_callback. The
 /// function is called 625 times or more, for the box, for closed directions and collapsed edges.
 ///
 /// @param callback  the function and what is known about it. After a failure nothing of it is kept and

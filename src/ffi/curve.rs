@@ -15,7 +15,7 @@ use std::sync::Arc;
 /// A curve. Immutable: any number of threads may use one at a time. The search index is built on first
 /// use, by one thread while the others wait. Made by fpt_curve_new or fpt_curve_from_callback, owned by the
 /// caller, released by fpt_curve_free. A curve from a callback has no degree, knots, poles and weights:
-/// functions that ask for them return FPT_UNSUPPORTED.
+/// functions that need them return FPT_UNSUPPORTED.
 pub struct fpt_curve {
     form: Arc<CurveForm>,
 }

@@ -7,7 +7,9 @@ use super::Failure;
 use crate::callback::{CallbackCurve, CallbackSurface};
 use crate::closest::{FootPoint, QueryOptions, Trace, Workspace};
 use crate::error::Error;
-use crate::index::{IndexedCurve, IndexedSurface};
+use crate::extrema::ExtremaOptions;
+use crate::index::{IndexedCurve, IndexedSurface, Poll};
+use crate::set::FootSet;
 
 /// A curve of either kind.
 #[derive(Debug)]
@@ -23,11 +25,8 @@ pub(super) enum SurfaceForm {
     Function(CallbackSurface),
 }
 
-/// Asked now and then during long work: true means stop.
-type Poll<'a> = &'a mut dyn FnMut() -> bool;
-
 fn no_spline(name: &str) -> Failure {
-    let text = format!("{name}: is given by a function and has no knots, poles or weights");
+    let text = format!("{name}: is given by a function; this call needs knots and poles");
     Error::Unsupported(text).into()
 }
 
@@ -137,6 +136,31 @@ impl CurveForm {
             Self::Function(curve) => curve.invert(query, hint, options, trace),
         }
     }
+
+    pub(super) fn preimage(
+        &self,
+        query: [f64; 3],
+        tolerance: f64,
+        options: &QueryOptions,
+        poll: Poll,
+    ) -> Result<FootSet, Error> {
+        match self {
+            Self::Spline(curve) => curve.preimage(query, tolerance, options, poll),
+            Self::Function(curve) => curve.preimage(query, tolerance, options, poll),
+        }
+    }
+
+    pub(super) fn extrema(
+        &self,
+        query: [f64; 3],
+        options: &ExtremaOptions,
+        poll: Poll,
+    ) -> Result<FootSet, Error> {
+        match self {
+            Self::Spline(curve) => curve.extrema(query, options, poll),
+            Self::Function(curve) => curve.extrema(query, options, poll),
+        }
+    }
 }
 
 impl SurfaceForm {
@@ -238,6 +262,31 @@ impl SurfaceForm {
         match self {
             Self::Spline(surface) => surface.invert(query, hint, options, workspace, trace),
             Self::Function(surface) => surface.invert(query, hint, options, trace),
+        }
+    }
+
+    pub(super) fn preimage(
+        &self,
+        query: [f64; 3],
+        tolerance: f64,
+        options: &QueryOptions,
+        poll: Poll,
+    ) -> Result<FootSet, Error> {
+        match self {
+            Self::Spline(surface) => surface.preimage(query, tolerance, options, poll),
+            Self::Function(surface) => surface.preimage(query, tolerance, options, poll),
+        }
+    }
+
+    pub(super) fn extrema(
+        &self,
+        query: [f64; 3],
+        options: &ExtremaOptions,
+        poll: Poll,
+    ) -> Result<FootSet, Error> {
+        match self {
+            Self::Spline(surface) => surface.extrema(query, options, poll),
+            Self::Function(surface) => surface.extrema(query, options, poll),
         }
     }
 }

@@ -11,8 +11,9 @@ use super::records::{feet, fpt_foot_point};
 use super::surface::{self, fpt_surface};
 use super::{Failure, fpt_status, guard};
 use crate::batch;
-use crate::closest::{FootPoint, QueryOptions, Trace, Workspace};
+use crate::closest::{FootPoint, QueryOptions, Trace};
 use crate::error::Error;
+use crate::index::{IndexedCurve, IndexedSurface};
 use std::ffi::{c_int, c_void};
 
 /// The nearest point of the curve for each query point, with a proven lower bound of the distance.
@@ -118,7 +119,7 @@ pub unsafe extern "C" fn fpt_surface_invert(
 }
 
 /// What a batch needs of a shape with `N` parameters.
-trait Shape<const N: usize>: Sync {
+pub(super) trait Shape<const N: usize>: Sync {
     /// Start and end of each parameter.
     fn ends(&self) -> [[f64; 2]; N];
     fn check_restriction(&self, domain: [f64; 4]) -> Result<(), Error>;
@@ -155,18 +156,38 @@ impl Shape<2> for SurfaceForm {
     }
 }
 
-/// One operation on one query point.
-type Ask<S, const N: usize> = fn(
-    &S,
-    [f64; 3],
-    Option<[f64; N]>,
-    &QueryOptions,
-    &mut Workspace,
-    Option<Trace<'_>>,
-) -> FootPoint;
+impl Shape<1> for IndexedCurve {
+    fn ends(&self) -> [[f64; 2]; 1] {
+        let (start, end) = self.curve().domain();
+        [[start, end]]
+    }
+
+    fn check_restriction(&self, domain: [f64; 4]) -> Result<(), Error> {
+        self.check_domain(domain)
+    }
+
+    fn build(&self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error> {
+        self.prepare(poll)
+    }
+}
+
+impl Shape<2> for IndexedSurface {
+    fn ends(&self) -> [[f64; 2]; 2] {
+        let [u0, u1, v0, v1] = self.surface().domain();
+        [[u0, u1], [v0, v1]]
+    }
+
+    fn check_restriction(&self, domain: [f64; 4]) -> Result<(), Error> {
+        self.check_domain(domain)
+    }
+
+    fn build(&self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error> {
+        self.prepare(poll)
+    }
+}
 
 /// The checked arguments of one call.
-struct Batch<'a, S, const N: usize> {
+pub(super) struct Batch<'a, S, const N: usize> {
     shape: &'a S,
     points: Strided<'a, 3>,
     hints: Option<Strided<'a, N>>,
@@ -183,7 +204,7 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
     ///
     /// # Safety
     /// Pointers that are not NULL point to what the header asks for, for as long as the call lasts.
-    unsafe fn read(
+    pub(super) unsafe fn read(
         shape: &'a S,
         points: *const f64,
         count: usize,
@@ -210,7 +231,19 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
         }
     }
 
-    fn run(self, ask: Ask<S, N>) -> Result<(), Failure> {
+    /// Asks `ask`, one operation on one query point, for every record; `W` is what a thread works with.
+    pub(super) fn run<W: Default>(
+        self,
+        ask: impl Fn(
+            &S,
+            [f64; 3],
+            Option<[f64; N]>,
+            &QueryOptions,
+            &mut W,
+            Option<Trace<'_>>,
+        ) -> FootPoint
+        + Sync,
+    ) -> Result<(), Failure> {
         let Self { shape, points, hints, ends, options, threads, callbacks, out } = self;
         let total = out.len();
         if total == 0 {
@@ -221,7 +254,7 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
             out.fill(FootPoint::unreached());
         }
         built?;
-        let work = |i: usize, workspace: &mut Workspace| {
+        let work = |i: usize, workspace: &mut W| {
             let hint = hints.and_then(|hints| hint(hints.row(i), ends));
             let mut told = |step, u, v, residual| callbacks.trace(i, step, [u, v], residual);
             let trace: Option<Trace<'_>> =
@@ -232,6 +265,14 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
         callbacks.report(total, total);
         Ok(())
     }
+}
+
+/// Refuses a restriction that does not lie in the domain.
+pub(super) fn check_restriction<S: Shape<N>, const N: usize>(
+    shape: &S,
+    domain: Option<[f64; 4]>,
+) -> Result<(), Failure> {
+    restricted(shape, domain).map(|_| ())
 }
 
 /// The domain that answers come from.
@@ -259,12 +300,12 @@ fn hint<const N: usize>(row: [f64; N], ends: [[f64; 2]; N]) -> Option<[f64; N]> 
     if row.iter().any(|x| x.is_nan()) { None } else { Some(moved) }
 }
 
-type ShouldStop = unsafe extern "C" fn(*mut c_void) -> c_int;
+pub(super) type ShouldStop = unsafe extern "C" fn(*mut c_void) -> c_int;
 type Progress = unsafe extern "C" fn(*mut c_void, usize, usize);
 type TraceStep = unsafe extern "C" fn(*mut c_void, usize, u32, f64, f64, f64);
 
 /// The caller's functions and what they are handed.
-struct Callbacks {
+pub(super) struct Callbacks {
     should_stop: Option<ShouldStop>,
     progress: Option<Progress>,
     trace: Option<TraceStep>,
@@ -276,13 +317,18 @@ struct Callbacks {
 unsafe impl Sync for Callbacks {}
 
 impl Callbacks {
-    fn of(options: &fpt_query_options) -> Self {
+    pub(super) fn of(options: &fpt_query_options) -> Self {
         let fpt_query_options { should_stop, progress, trace, user, .. } = *options;
         Self { should_stop, progress, trace, user }
     }
 
+    /// Only the question whether to stop.
+    pub(super) fn stopping(should_stop: Option<ShouldStop>, user: *mut c_void) -> Self {
+        Self { should_stop, progress: None, trace: None, user }
+    }
+
     /// Tells how far the call is and asks whether to stop.
-    fn poll(&self, done: usize, total: usize) -> bool {
+    pub(super) fn poll(&self, done: usize, total: usize) -> bool {
         self.report(done, total);
         // SAFETY: the header asks for functions that take this `user` and do not unwind.
         self.should_stop.is_some_and(|should_stop| unsafe { should_stop(self.user) } != 0)

@@ -15,7 +15,7 @@ use std::sync::Arc;
 /// A surface. Immutable: any number of threads may use one at a time. The search index is built on first
 /// use, by one thread while the others wait. Made by fpt_surface_new or fpt_surface_from_callback, owned by
 /// the caller, released by fpt_surface_free. A surface from a callback has no degrees, knots, poles and
-/// weights: functions that ask for them return FPT_UNSUPPORTED.
+/// weights: functions that need them return FPT_UNSUPPORTED.
 pub struct fpt_surface {
     form: Arc<SurfaceForm>,
 }
