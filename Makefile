@@ -3,12 +3,16 @@ CARGO  ?= cargo
 BUILD  ?= build
 PREFIX ?= /usr/local
 JOBS   ?= $(shell nproc 2>/dev/null || echo 2)
+SEED    ?= 1
+QUERIES ?= 10000000
+THREADS ?= $(JOBS)
 
-.PHONY: help build test test-rust test-c demo install clean
+.PHONY: help build test test-rust test-c stress demo install clean
 
 help:
 	@echo "make build             build the library, shared and static, into $(BUILD)/lib"
 	@echo "make test              run every test"
+	@echo "make stress            ask QUERIES=10000000 difficult queries, each checked; also SEED, THREADS"
 	@echo "make demo              run the demonstration (a minute); pictures go to demo-out/"
 	@echo "make install PREFIX=p  install library, headers and pkg-config file (default $(PREFIX))"
 	@echo "make clean             remove what was built"
@@ -55,6 +59,10 @@ test-c:
 	$(call configure,ON)
 	cmake --build $(BUILD) -j $(JOBS)
 	cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
+
+# Ten million take a quarter of an hour on two cores. The exit code says whether anything was wrong.
+stress:
+	$(CARGO) bench --locked --bench stress -- seed=$(SEED) queries=$(QUERIES) threads=$(THREADS) out=stress.txt
 
 demo:
 	$(call need,cmake)

@@ -32,7 +32,10 @@ fn a_point_projects_onto_the_nearer_side_of_a_sphere_or_misses_it() {
         let half = half2.sqrt();
         let expected = (along - half).abs().min((along + half).abs());
         assert!((foot.distance - expected).abs() < 1e-9, "{} {expected}", foot.distance);
-        assert!(foot.lower_bound <= foot.distance && foot.lower_bound > expected - 1e-3);
+        assert!(
+            foot.lower_bound <= foot.distance && foot.lower_bound > expected - 1e-3,
+            "{q:?} {d:?} {half} {foot:?}"
+        );
         assert_eq!(foot.flags & (flag::NOT_PROVEN | flag::NOT_ON_SHAPE), 0);
         assert_eq!(foot.point, ball.surface().evaluate(foot.u, foot.v));
     }

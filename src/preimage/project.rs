@@ -50,7 +50,10 @@ impl Nearest {
         if along[1] - along[0] > 8.0 * request.tolerance {
             // A line that runs in the shape: its nearest point, not any one.
             let foot = shape.closest_in(part.area, workspace);
-            at = [foot.u, foot.v];
+            let least = request.target.distance(shape.point(at));
+            if request.target.distance(foot.point) <= least + 4.0 * request.floor {
+                at = [foot.u, foot.v];
+            }
         }
         let away = norm(sub(shape.point(at), request.target.origin()));
         if self.found.is_none_or(|(least, _)| away < least) {
