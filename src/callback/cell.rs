@@ -501,6 +501,16 @@ mod tests {
     }
 
     #[test]
+    fn boxes_beyond_the_centre_of_curvature_are_not_called_convex() {
+        let shape = wave(2, [false, true]);
+        // A trough of the wave, seen from above.
+        for z in [1.0, 1.8, 2.2, 3.0, 4.0, 20.0] {
+            let probe = Probe::new(&shape, [1.75, 2.9, z]);
+            check_box(&probe, [1.7, 1.8, 2.8, 2.95]);
+        }
+    }
+
+    #[test]
     fn near_the_shape_small_boxes_are_convex_and_far_from_it_they_are_not() {
         let shape = wave(1, [false, true]);
         let convex = |z: f64| {
