@@ -10,6 +10,7 @@
 //!                   -> spline or function behind a handle      form.rs
 //!                   -> Curve, Surface, closest, batch          curve.rs, surface.rs, callback.rs,
 //!                                                              query.rs, sets.rs, lines.rs
+//!                   -> normal, unwrap                          normals.rs, path.rs
 //!          <- fpt_status, text of a failure for fpt_last_error
 //! ```
 //!
@@ -31,6 +32,8 @@ mod callback;
 mod query;
 mod sets;
 mod lines;
+mod normals;
+mod path;
 #[cfg(test)]
 mod tests;
 
