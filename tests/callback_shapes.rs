@@ -289,6 +289,15 @@ fn a_sphere_has_two_stationary_points_and_its_centre_a_region() {
         [poles.members[0].nature, poles.members[1].nature],
         [Nature::Minimum, Nature::Maximum]
     );
+    // Feet beside the poles are not taken for the poles.
+    for x in [1e-3, 4e-3, 0.02, 0.1] {
+        let set = shape.extrema([x, 0.0, 0.5], &ExtremaOptions::default(), &mut || false).unwrap();
+        let v = (0.5f64 / x).atan();
+        for (v, nature) in [(v, Nature::Minimum), (-v, Nature::Maximum)] {
+            let found = set.members.iter().find(|m| (m.foot.v - v).abs() < 1e-6);
+            assert_eq!(found.map(|m| m.nature), Some(nature), "{x} {set:#?}");
+        }
+    }
     let centre = shape.extrema([0.0; 3], &ExtremaOptions::default(), &mut || false).unwrap();
     assert!(centre.members.iter().any(|m| m.kind == Kind::Region), "{centre:#?}");
 }

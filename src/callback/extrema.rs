@@ -15,7 +15,8 @@
 //! With bounds of the second derivatives every stationary point lies in the intervals of a member or in an undecided
 //! box. That it is the only one there is proven where the squared distance is convex (minima near the shape); elsewhere
 //! it is what Newton's iteration finds: bounds of third derivatives would be needed for more.
-//! Limit: two stationary points nearer than a few [`RESOLUTION`] can come out as one.
+//! Limits: two stationary points nearer than a few [`RESOLUTION`] can come out as one; that there is none within
+//! [`NEAR_COLLAPSED`] boxes of a collapsed edge rests on the iteration from there.
 
 use super::DEFAULT_BUDGET;
 use super::cell::{Probe, View, halves};
@@ -42,6 +43,9 @@ const ROUNDS: usize = 3;
 
 /// A cluster wider than this share of the domain is no single place.
 const WIDE: f64 = 1.0 / 64.0;
+
+/// What reaches no farther from a collapsed edge than so many boxes, and holds no stationary place, is taken for the edge.
+const NEAR_COLLAPSED: f64 = 32.0;
 
 /// Places of a cluster from which the iteration starts.
 const STARTS: usize = 24;
@@ -304,10 +308,16 @@ impl Request<'_> {
 
     /// Takes what a cluster of small boxes holds; false when the iteration finds nothing in it.
     fn resolve(&mut self, small: &[[f64; 4]], cluster: &Cluster, free: [bool; 2]) -> bool {
-        if self.belongs_to_collapsed(cluster.hull) {
+        let places = self.places(small, cluster, free);
+        if let Some(width) = self.at_collapsed(cluster.hull) {
+            // The edge itself has been judged as a whole; near it first derivatives vanish, and no bound tells more.
+            let beside = places.iter().any(|place| !self.is_on_collapsed(*place));
+            if beside || width > NEAR_COLLAPSED * RESOLUTION {
+                self.undecided.push(cluster.hull);
+                self.tell(places, free);
+            }
             return true;
         }
-        let places = self.places(small, cluster, free);
         let Some(&first) = places.first() else { return false };
         let widths = [0, 1].map(|k| cluster.hull[2 * k + 1] - cluster.hull[2 * k]);
         let wide = [0, 1].map(|k| free[k] && widths[k] > WIDE * self.probe.shape.source.width(k));
@@ -324,11 +334,7 @@ impl Request<'_> {
 
     /// Members from places of an undecided cluster: those at one distance that spread far are a continuum.
     fn tell(&mut self, mut places: Vec<Place>, free: [bool; 2]) {
-        // A collapsed edge has been judged as a whole.
-        let on_collapsed = |place: &Place| {
-            self.probe.record(*place, self.range, false).flags & flag::COLLAPSED != 0
-        };
-        places.retain(|place| !on_collapsed(place));
+        places.retain(|place| !self.is_on_collapsed(*place));
         while let Some(&first) = places.first() {
             let (group, rest): (Vec<Place>, Vec<Place>) =
                 places.into_iter().partition(|place| self.is_even(place.distance, first.distance));
@@ -384,15 +390,15 @@ impl Request<'_> {
         })
     }
 
-    /// Whether a cluster is what a collapsed edge leaves: its first derivatives vanish there, not the distance's.
-    fn belongs_to_collapsed(&self, hull: [f64; 4]) -> bool {
-        (0..2 * self.probe.shape.source.dims).any(|side| {
-            let k = side / 2;
-            let width = hull[2 * k + 1] - hull[2 * k];
-            self.is_collapsed(side)
-                && hull[side] == self.range[side]
-                && width <= WIDE * self.probe.shape.source.width(k)
-        })
+    fn is_on_collapsed(&self, place: Place) -> bool {
+        self.probe.record(place, self.range, false).flags & flag::COLLAPSED != 0
+    }
+
+    /// How far a cluster that touches a collapsed edge reaches away from it, as a share of the domain.
+    fn at_collapsed(&self, hull: [f64; 4]) -> Option<f64> {
+        let touches = |side: &usize| self.is_collapsed(*side) && hull[*side] == self.range[*side];
+        let k = (0..2 * self.probe.shape.source.dims).find(touches)? / 2;
+        Some((hull[2 * k + 1] - hull[2 * k]) / self.probe.shape.source.width(k))
     }
 
     fn member_at(&self, place: Place, area: [f64; 4], varies: [bool; 2]) -> Member {
