@@ -87,12 +87,12 @@ impl Signs {
             [true, true] => {}
             [true, false] => self.put(c, LEAST_CURVATURE * g + 4.0 * noise),
             [false, true] => self.put(a, LEAST_CURVATURE * e + 4.0 * noise),
-            [false, false] => self.form([a, b, c], [e, dot(jet.s, jet.t), g]),
+            [false, false] => self.form([a, b, c], [e, dot(jet.s, jet.t), g], 4.0 * noise),
         }
     }
 
     /// Eigenvalues of the second derivatives relative to the metric.
-    fn form(&mut self, [a, b, c]: [f64; 3], [e, f, g]: [f64; 3]) {
+    fn form(&mut self, [a, b, c]: [f64; 3], [e, f, g]: [f64; 3], noise: f64) {
         let area = e * g - f * f;
         if area <= 1e-12 * e * g {
             self.zero = true;
@@ -103,7 +103,7 @@ impl Signs {
         let d = (a * c - b * b) / area;
         let spread = (m * m - d).max(0.0).sqrt();
         for value in [m - spread, m + spread] {
-            self.put(value, LEAST_CURVATURE);
+            self.put(value, LEAST_CURVATURE + noise / e.min(g));
         }
     }
 
