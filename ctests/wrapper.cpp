@@ -214,6 +214,60 @@ void functions_make_shapes() {
     check_thrown([&] { curve::from_function(fails, {0, 1}); }, FPT_INVALID_ARGUMENT, "finite");
 }
 
+void sets_are_those_of_the_c_api() {
+    const surface cone(cone_surface());
+    const curve round = circle();
+    const footpoint::point apex{1, 0, 3}, seam{3, 0, 0}, beside{4, 0, 2};
+    const footpoint::foot_set tip = cone.preimage(apex);
+    CHECK(tip.size() == 1 && !tip.empty() && tip.is_complete() && tip[0].kind == FPT_MEMBER_ARC_U);
+    CHECK(round.preimage(seam).size() == 2 && round.preimage({9, 9, 9}).empty());
+    const auto all = cone.extrema(beside);
+    fpt_foot_set *raw = nullptr;
+    CHECK_OK(fpt_surface_extrema(cone.get(), beside.data(), nullptr, &raw));
+    const footpoint::foot_set same_set(raw);
+    CHECK(all.size() == same_set.size() && all.undecided().empty());
+    std::size_t count = 0;
+    for (const fpt_foot_member &member : all) {
+        const fpt_foot_member other = same_set[count++];
+        CHECK(std::memcmp(&member, &other, sizeof member) == 0);
+    }
+    CHECK(count == all.size());
+    footpoint::extrema_options options;
+    options.nearest = 1;
+    CHECK(cone.extrema(beside, options).size() == 1 && round.extrema(beside, options).size() == 1);
+    const auto line = round.on_line({-9, 0, 0}, {1, 0, 0});
+    CHECK(line.size() == 3 && line[0].foot.u == 2);
+    CHECK(round.on_line({-9, 0, 0}, {1, 0, 0}, {10, 13}).size() == 2);
+    CHECK(cone.on_line({-9, 0, 1.5}, {1, 0, 0}).size() == 3);
+    const auto below = cone.project({2, 0, 9, 0, 0, 9}, {0, 0, 1});
+    CHECK(below.size() == 2 && below[0].distance > 7.4 && below[0].distance < 7.6);
+    CHECK(round.project({-7, 0, 0}, {1, 0, 0})[0].distance == 6);
+}
+
+void an_incomplete_set_is_a_set_and_other_failures_are_thrown() {
+    const surface shape = paper();
+    const curve round = circle();
+    footpoint::extrema_options few;
+    few.budget = 1;
+    const auto part = shape.extrema({300, 250, 100}, few);
+    CHECK(!part.is_complete() && !part.undecided().empty());
+    check_thrown([&] { part[part.size()]; }, FPT_INVALID_ARGUMENT, "index");
+    check_thrown([&] { shape.preimage({NAN, 0, 0}); }, FPT_INVALID_ARGUMENT, "point");
+    check_thrown([&] { shape.preimage({0, 0, 0}, -1); }, FPT_INVALID_ARGUMENT, "tolerance");
+    check_thrown([&] { round.on_line({0, 0, 0}, {0, 0, 0}); }, FPT_INVALID_ARGUMENT, "direction");
+    check_thrown([&] { round.on_line({0, 0, 0}, {0, 0, 1}, {1, 0}); }, FPT_INVALID_ARGUMENT, "reach");
+    check_thrown([&] { round.project({0, 0}, {0, 0, 1}); }, FPT_INVALID_ARGUMENT, "points");
+    few.radius = -1;
+    check_thrown([&] { round.extrema({0, 0, 0}, few); }, FPT_INVALID_ARGUMENT, "radius");
+    footpoint::foot_set moved = round.preimage({3, 0, 0});
+    footpoint::foot_set other = std::move(moved);
+    CHECK(other.size() == 2);
+    check_thrown([&] { moved.size(); }, FPT_NULL_ARGUMENT, "set");
+    fpt_foot_set *raw = other.release();
+    CHECK(raw != nullptr && other.get() == nullptr);
+    fpt_foot_set_free(raw);
+}
+
 void normals_and_paths_are_those_of_the_c_api() {
     const surface shape = paper();
     const curve round = circle();
@@ -253,6 +307,8 @@ int main() {
     RUN(failures_are_thrown);
     RUN(a_stop_is_thrown_and_the_records_stay);
     RUN(functions_make_shapes);
+    RUN(sets_are_those_of_the_c_api);
+    RUN(an_incomplete_set_is_a_set_and_other_failures_are_thrown);
     RUN(normals_and_paths_are_those_of_the_c_api);
     RUN(versions_agree);
     return check_report("wrapper");

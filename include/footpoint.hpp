@@ -5,12 +5,14 @@
  * Every rule of footpoint.h holds here too: units, threads, lengths and order of the numbers. What differs:
  *   - a curve and a surface are released by their destructor; they move and do not copy;
  *   - a status that is not FPT_OK is thrown as footpoint::error, with the text of fpt_last_error();
- *   - array arguments are vectors of doubles whose lengths are checked before the call.
+ *   - array arguments are vectors of doubles whose lengths are checked before the call;
+ *   - FPT_BUDGET_EXHAUSTED is not thrown: the set that comes says so with is_complete().
  * Moved-from objects may be assigned to and destroyed; anything else throws FPT_NULL_ARGUMENT.
  * Callbacks in options must not throw; the functions of from_function may, that is a failure there.
  *
  *     footpoint::surface blade(3, 3, knots_u, knots_v, poles, weights);
  *     for (const fpt_foot_point &foot : blade.closest(points)) use(foot.u, foot.v, foot.distance);
+ *     for (const fpt_foot_member &member : blade.preimage({x, y, z})) use(member.foot.u, member.foot.v);
  */
 #ifndef FOOTPOINT_HPP
 #define FOOTPOINT_HPP
@@ -21,6 +23,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -64,6 +68,102 @@ struct query_options : fpt_query_options {
 using curve_function = std::function<int(double, std::uint32_t, double *)>;
 /** fpt_surface_callback.evaluate without its user: u, v, derivatives, out. */
 using surface_function = std::function<int(double, double, std::uint32_t, double *)>;
+
+/** fpt_extrema_options that begin as the defaults. */
+struct extrema_options : fpt_extrema_options {
+    extrema_options() noexcept : fpt_extrema_options() {
+        fpt_extrema_options_init(this, sizeof(fpt_extrema_options));
+    }
+};
+
+/** x,y,z of a point or direction. */
+using point = std::array<double, 3>;
+
+/** Least and greatest length along a line's direction; a ray has 0 and infinity. */
+using reach = std::array<double, 2>;
+
+/** The whole line. */
+inline constexpr reach whole_line{-std::numeric_limits<double>::infinity(),
+                                  std::numeric_limits<double>::infinity()};
+
+/** A set of feet: owner of an fpt_foot_set. */
+class foot_set {
+public:
+    /** Takes a handle over. */
+    explicit foot_set(fpt_foot_set *handle) noexcept : handle_(handle) {}
+
+    /** The handle, still owned here. */
+    const fpt_foot_set *get() const noexcept { return handle_.get(); }
+    /** The handle, owned by the caller from now on. */
+    fpt_foot_set *release() noexcept { return handle_.release(); }
+
+    std::size_t size() const {
+        std::size_t out = 0;
+        check(fpt_foot_set_count(get(), &out));
+        return out;
+    }
+    bool empty() const { return size() == 0; }
+
+    /** A member; an index beyond the size is thrown. */
+    fpt_foot_member operator[](std::size_t index) const {
+        fpt_foot_member out;
+        check(fpt_foot_set_get(get(), index, &out));
+        return out;
+    }
+
+    /** Boxes u0,u1,v0,v1 that the budget left undecided. */
+    std::vector<std::array<double, 4>> undecided() const {
+        std::size_t count = 0;
+        check(fpt_foot_set_undecided_count(get(), &count));
+        std::vector<std::array<double, 4>> out(count);
+        for (std::size_t i = 0; i < count; i++) check(fpt_foot_set_undecided_get(get(), i, out[i].data()));
+        return out;
+    }
+    /** Whether nothing is missing. */
+    bool is_complete() const {
+        std::size_t count = 0;
+        check(fpt_foot_set_undecided_count(get(), &count));
+        return count == 0;
+    }
+
+    /** Members one by one, as copies. Valid while the set lives where it is. */
+    class iterator {
+    public:
+        using iterator_category = std::input_iterator_tag;
+        using value_type = fpt_foot_member;
+        using difference_type = std::ptrdiff_t;
+        using pointer = void;
+        using reference = fpt_foot_member;
+
+        iterator(const foot_set *set, std::size_t index) noexcept : set_(set), index_(index) {}
+        fpt_foot_member operator*() const { return (*set_)[index_]; }
+        iterator &operator++() noexcept {
+            index_++;
+            return *this;
+        }
+        iterator operator++(int) noexcept {
+            iterator before = *this;
+            index_++;
+            return before;
+        }
+        bool operator==(const iterator &other) const noexcept { return index_ == other.index_; }
+        bool operator!=(const iterator &other) const noexcept { return index_ != other.index_; }
+
+    private:
+        const foot_set *set_;
+        std::size_t index_;
+    };
+
+    iterator begin() const noexcept { return iterator(this, 0); }
+    iterator end() const { return iterator(this, size()); }
+
+private:
+    struct deleter {
+        void operator()(fpt_foot_set *handle) const noexcept { fpt_foot_set_free(handle); }
+    };
+
+    std::unique_ptr<fpt_foot_set, deleter> handle_;
+};
 
 /** Unit normals with sides, or unit tangents, one per foot. */
 struct directions {
@@ -156,6 +256,27 @@ std::vector<fpt_foot_point> feet(query<Shape> ask, const Shape *shape, const std
                                  const fpt_query_options &options) {
     std::vector<fpt_foot_point> out(point_count(points, options));
     check(ask(shape, points.data(), out.size(), &options, out.data()));
+    return out;
+}
+
+/** The set that a call made; one that is not complete is a set too. */
+template <class Call>
+foot_set set(Call call) {
+    fpt_foot_set *out = nullptr;
+    const fpt_status status = call(&out);
+    if (status != FPT_BUDGET_EXHAUSTED) check(status);
+    return foot_set(out);
+}
+
+template <class Shape>
+using projection = fpt_status (*)(const Shape *, const double *, std::size_t, const double *,
+                                  const fpt_query_options *, fpt_foot_point *);
+
+template <class Shape>
+std::vector<fpt_foot_point> projected(projection<Shape> ask, const Shape *shape, const std::vector<double> &points,
+                                      const point &direction, const fpt_query_options &options) {
+    std::vector<fpt_foot_point> out(point_count(points, options));
+    check(ask(shape, points.data(), out.size(), direction.data(), &options, out.data()));
     return out;
 }
 
@@ -273,6 +394,31 @@ public:
     void invert(const double *points, std::size_t count, const fpt_query_options *options,
                 fpt_foot_point *out) const {
         check(fpt_curve_invert(get(), points, count, options, out));
+    }
+
+    /** As fpt_curve_preimage. */
+    foot_set preimage(const point &where, double tolerance = 0,
+                      const fpt_query_options &options = query_options()) const {
+        return detail::set([&](fpt_foot_set **out) {
+            return fpt_curve_preimage(get(), where.data(), tolerance, &options, out);
+        });
+    }
+    /** As fpt_curve_extrema. */
+    foot_set extrema(const point &where, const fpt_extrema_options &options = extrema_options()) const {
+        return detail::set(
+            [&](fpt_foot_set **out) { return fpt_curve_extrema(get(), where.data(), &options, out); });
+    }
+    /** As fpt_curve_on_line. */
+    foot_set on_line(const point &origin, const point &direction, const reach &part = whole_line,
+                     double tolerance = 0, const fpt_query_options &options = query_options()) const {
+        return detail::set([&](fpt_foot_set **out) {
+            return fpt_curve_on_line(get(), origin.data(), direction.data(), part.data(), tolerance, &options, out);
+        });
+    }
+    /** As fpt_curve_project: one record per query point, x,y,z each. */
+    std::vector<fpt_foot_point> project(const std::vector<double> &points, const point &direction,
+                                        const fpt_query_options &options = query_options()) const {
+        return detail::projected<fpt_curve>(fpt_curve_project, get(), points, direction, options);
     }
 
     /** The points in the order of a path, joined, as fpt_curve_path. */
@@ -451,6 +597,31 @@ public:
     void invert(const double *points, std::size_t count, const fpt_query_options *options,
                 fpt_foot_point *out) const {
         check(fpt_surface_invert(get(), points, count, options, out));
+    }
+
+    /** As fpt_surface_preimage. */
+    foot_set preimage(const point &where, double tolerance = 0,
+                      const fpt_query_options &options = query_options()) const {
+        return detail::set([&](fpt_foot_set **out) {
+            return fpt_surface_preimage(get(), where.data(), tolerance, &options, out);
+        });
+    }
+    /** As fpt_surface_extrema. */
+    foot_set extrema(const point &where, const fpt_extrema_options &options = extrema_options()) const {
+        return detail::set(
+            [&](fpt_foot_set **out) { return fpt_surface_extrema(get(), where.data(), &options, out); });
+    }
+    /** As fpt_surface_on_line. */
+    foot_set on_line(const point &origin, const point &direction, const reach &part = whole_line,
+                     double tolerance = 0, const fpt_query_options &options = query_options()) const {
+        return detail::set([&](fpt_foot_set **out) {
+            return fpt_surface_on_line(get(), origin.data(), direction.data(), part.data(), tolerance, &options, out);
+        });
+    }
+    /** As fpt_surface_project: one record per query point, x,y,z each. */
+    std::vector<fpt_foot_point> project(const std::vector<double> &points, const point &direction,
+                                        const fpt_query_options &options = query_options()) const {
+        return detail::projected<fpt_surface>(fpt_surface_project, get(), points, direction, options);
     }
 
     /** The points in the order of a path, joined, as fpt_surface_path. */

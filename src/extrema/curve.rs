@@ -43,6 +43,9 @@ impl IndexedCurve {
         poll: &mut dyn FnMut() -> bool,
     ) -> Result<FootSet, Error> {
         let index = self.index(poll)?;
+        if poll() {
+            return Err(Error::Cancelled);
+        }
         let range = self.restricted(options.domain);
         let q = index.frame.enter(query);
         if !is_reachable(q) {

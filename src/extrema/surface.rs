@@ -37,6 +37,9 @@ impl IndexedSurface {
         poll: &mut dyn FnMut() -> bool,
     ) -> Result<FootSet, Error> {
         let index = self.index(poll)?;
+        if poll() {
+            return Err(Error::Cancelled);
+        }
         let range = self.restricted(options.domain);
         let q = index.frame.enter(query);
         if !is_reachable(q) {

@@ -49,6 +49,9 @@ impl IndexedSurface {
         poll: &mut dyn FnMut() -> bool,
     ) -> Result<FootSet, Error> {
         let index = self.index(poll)?;
+        if poll() {
+            return Err(Error::Cancelled);
+        }
         let range = self.restricted(options.domain);
         match Search::new(self, index, target, tolerance, range) {
             Some(search) => search.run(budget(options), poll),

@@ -134,15 +134,18 @@ fn wanted_flags(shape: &Shape, m: &Member, found: u32) -> u32 {
     let (u, v) = (m.foot.u, m.foot.v);
     let on = [u == u0, u == u1, is_surface && v == v0, is_surface && v == v1];
     let (in_u, in_v) = (on[0] || on[1], on[2] || on[3]);
-    let mut flags = found & (flag::CREASE | flag::TIE);
+    // A place that stands for an area whose distances differ may say so.
+    let is_area = m.kind == Kind::Point && (m.u[0] < m.u[1] || m.v[0] < m.v[1]);
+    let open = flag::CREASE | flag::TIE | if is_area { flag::NOT_PROVEN } else { 0 };
+    let mut flags = found & open;
     let put = |flags: &mut u32, holds: bool, bit: u32| *flags |= if holds { bit } else { 0 };
     put(&mut flags, in_u || in_v, flag::EDGE);
     put(&mut flags, in_u && in_v, flag::CORNER);
     put(&mut flags, (in_u && closed[0]) || (in_v && closed[1]), flag::SEAM);
     put(&mut flags, (0..4).any(|k| on[k] && collapsed[k]), flag::COLLAPSED);
     // A collapsed edge is an arc of parameters and one point: both views are fine.
-    let is_open = flags & flag::COLLAPSED != 0 && matches!(m.kind, Kind::ArcU | Kind::ArcV);
-    let is_continuum = if is_open { found & flag::CONTINUUM != 0 } else { m.kind != Kind::Point };
+    let is_edge = flags & flag::COLLAPSED != 0 && matches!(m.kind, Kind::ArcU | Kind::ArcV);
+    let is_continuum = if is_edge { found & flag::CONTINUUM != 0 } else { m.kind != Kind::Point };
     put(&mut flags, is_continuum, flag::CONTINUUM);
     flags
 }
@@ -243,6 +246,7 @@ fn agrees(shape: &Shape, m: &Member, want: &Wanted, limits: Limits) -> bool {
     let (arc_u, arc_v) =
         (matches!(m.kind, Kind::ArcU | Kind::Region), matches!(m.kind, Kind::ArcV | Kind::Region));
     m.kind == want.kind
+        && m.foot.flags & flag::NOT_PROVEN == 0
         && want.nature.is_none_or(|nature| nature == m.nature)
         && (m.foot.distance - want.distance).abs() <= limits.distance
         && near(0, m.foot.u, m.u, u1 - u0, arc_u)
