@@ -188,11 +188,62 @@ typedef enum fpt_scope {
 } fpt_scope;
 
 /**
+ * What the parameters of a member form, for fpt_foot_member.kind.
+ */
+typedef enum fpt_member_kind {
+    /**
+     * One place. The intervals enclose what the tolerance leaves open.
+     */
+    FPT_MEMBER_POINT = 0,
+    /**
+     * An interval of u with v fixed: every u in it gives the point (preimage) or the distance (extrema).
+     */
+    FPT_MEMBER_ARC_U = 1,
+    /**
+     * An interval of v with u fixed.
+     */
+    FPT_MEMBER_ARC_V = 2,
+    /**
+     * Both parameters vary.
+     */
+    FPT_MEMBER_REGION = 3,
+} fpt_member_kind;
+
+/**
+ * What the distance does around a member, for fpt_foot_member.nature. On a border of the domain only points of
+ * the domain count.
+ */
+typedef enum fpt_member_nature {
+    /**
+     * Nothing around is nearer.
+     */
+    FPT_NATURE_MINIMUM = 0,
+    /**
+     * Nothing around is farther.
+     */
+    FPT_NATURE_MAXIMUM = 1,
+    /**
+     * Nearer in some directions, farther in others.
+     */
+    FPT_NATURE_SADDLE = 2,
+    /**
+     * It does not change to second order, and samples around do not tell.
+     */
+    FPT_NATURE_FLAT = 3,
+} fpt_member_nature;
+
+/**
  * A curve. Immutable: any number of threads may use one at a time. The search index is built on first
  * use, by one thread while the others wait. Made by fpt_curve_new, owned by the caller, released by
  * fpt_curve_free.
  */
 typedef struct fpt_curve fpt_curve;
+
+/**
+ * A set of feet. Immutable: any number of threads may read one at a time. Owned by the caller, released by
+ * fpt_foot_set_free; it does not refer to the shape that it came from.
+ */
+typedef struct fpt_foot_set fpt_foot_set;
 
 /**
  * A surface. Immutable: any number of threads may use one at a time. The search index is built on first
@@ -401,6 +452,82 @@ typedef struct fpt_foot_point {
      */
     uint32_t iterations;
 } fpt_foot_point;
+
+/**
+ * Which stationary points to list. Fill it with fpt_extrema_options_init, then change what matters. All zero
+ * after struct_size is the default of everything. Grows at the end only.
+ */
+typedef struct fpt_extrema_options {
+    /**
+     * sizeof(fpt_extrema_options), set by fpt_extrema_options_init.
+     */
+    size_t struct_size;
+    /**
+     * Length, finite, >= 0. Places whose distances differ by less along the way between them may come out as one
+     * member. 0: 1e-10 x the diagonal of the shape's box.
+     */
+    double accuracy;
+    /**
+     * Length, finite, >= 0. Only points at most this far from the query. 0: all.
+     */
+    double radius;
+    /**
+     * At most this many, the nearest. 0: all.
+     */
+    size_t nearest;
+    /**
+     * 1: only minima (and members of nature flat); 0: all.
+     */
+    uint32_t minima_only;
+    /**
+     * Must be 0.
+     */
+    uint32_t reserved;
+    /**
+     * Restricts the answers to u0,u1,v0,v1 inside the domain; the ends of the restriction count as borders.
+     * All 0: the whole domain. On a curve only u0,u1 count.
+     */
+    double domain[4];
+    /**
+     * Most boxes; 0: the default, 20,000.
+     */
+    uint64_t budget;
+    /**
+     * Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED. NULL: never.
+     */
+    int (*should_stop)(void *user);
+    /**
+     * Handed to should_stop as it is.
+     */
+    void *user;
+} fpt_extrema_options;
+
+/**
+ * A member of a set: 104 bytes, frozen.
+ */
+typedef struct fpt_foot_member {
+    /**
+     * The representative. Its lower_bound is 0; FPT_FOOT_NOT_PROVEN: a place within the tolerance could be
+     * neither found nor excluded here.
+     */
+    struct fpt_foot_point foot;
+    /**
+     * Least and greatest u that belong to the member; they enclose, rounding included.
+     */
+    double u[2];
+    /**
+     * Least and greatest v; 0, 0 on a curve.
+     */
+    double v[2];
+    /**
+     * A value of fpt_member_kind.
+     */
+    uint32_t kind;
+    /**
+     * A value of fpt_member_nature.
+     */
+    uint32_t nature;
+} fpt_foot_member;
 
 #ifdef __cplusplus
 extern "C" {
@@ -858,6 +985,187 @@ fpt_status fpt_surface_invert(const struct fpt_surface *surface,
                               size_t count,
                               const struct fpt_query_options *options,
                               struct fpt_foot_point *out);
+
+/**
+ * Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.
+ * Does nothing when `options` is NULL or struct_size is smaller than a size_t.
+ * @since 0.1
+ */
+void fpt_extrema_options_init(struct fpt_extrema_options *options, size_t struct_size);
+
+/**
+ * All parameters of a curve whose point lies within a tolerance of a point, with proof that none is missing.
+ *
+ * Isolated parameters are members of kind point (a closed curve's seam gives two, a self-intersection as many as
+ * branches), spans without length are arcs. Members come in the order of u.
+ *
+ * @param point      3 finite numbers
+ * @param tolerance  length, finite, >= 0; 0: 1e-7 x the diagonal of the curve's box. Never less than the rounding
+ *                   of curve and point
+ * @param options    domain, budget (0: 20,000 boxes), should_stop and user count; NULL: the defaults
+ * @param out        the set; release it with fpt_foot_set_free. Empty when nothing is within the tolerance
+ * @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided intervals
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_preimage(const struct fpt_curve *curve,
+                              const double *point,
+                              double tolerance,
+                              const struct fpt_query_options *options,
+                              struct fpt_foot_set **out);
+
+/**
+ * All parameters of a surface whose point lies within a tolerance of a point, with proof that none is missing.
+ *
+ * A point on a seam has two members (at a corner of two seams four), a self-intersection as many as branches; collapsed
+ * edges and strips without width are arcs. Members come in the order of u, then v, so that the canonical one of a
+ * seam is first.
+ *
+ * @param point      3 finite numbers
+ * @param tolerance  length, finite, >= 0; 0: 1e-7 x the diagonal of the surface's box. Never less than the rounding
+ *                   of surface and point
+ * @param options    domain, budget (0: 20,000 boxes), should_stop and user count; NULL: the defaults
+ * @param out        the set; release it with fpt_foot_set_free. Empty when nothing is within the tolerance
+ * @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided boxes
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_preimage(const struct fpt_surface *surface,
+                                const double *point,
+                                double tolerance,
+                                const struct fpt_query_options *options,
+                                struct fpt_foot_set **out);
+
+/**
+ * All points of a curve where the distance from a point is stationary, with proof that none is missing: nearest first.
+ *
+ * Ends of the curve (not of a closed one) and of a restriction count: minimum or maximum among the points of the
+ * domain. At a break of the tangent the distance must rise or fall to both sides.
+ *
+ * @param point    3 finite numbers
+ * @param options  NULL: the defaults
+ * @param out      the set; release it with fpt_foot_set_free
+ * @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided intervals
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_extrema(const struct fpt_curve *curve,
+                             const double *point,
+                             const struct fpt_extrema_options *options,
+                             struct fpt_foot_set **out);
+
+/**
+ * All points of a surface where the distance from a point is stationary, with proof that none is missing: nearest first.
+ *
+ * Inside: minima, maxima, saddles. On the border of the domain (not on seams) and of a restriction: points where
+ * the distance is stationary along the border, and corners; they are minimum, maximum or saddle among the points of
+ * the domain. On creases: points where it is stationary along the crease and rises or falls to both sides. A collapsed
+ * edge counts when it is a minimum or maximum. Continua (the axis of a surface of revolution, the centre of a
+ * sphere) are arcs or regions with FPT_FOOT_CONTINUUM.
+ *
+ * @param point    3 finite numbers
+ * @param options  NULL: the defaults
+ * @param out      the set; release it with fpt_foot_set_free
+ * @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided boxes
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_extrema(const struct fpt_surface *surface,
+                               const double *point,
+                               const struct fpt_extrema_options *options,
+                               struct fpt_foot_set **out);
+
+/**
+ * All parameters of a curve whose point lies within a tolerance of a line, or of a part of it (a ray), with proof that
+ * none is missing, in the order along the line. The distance of a member is that from the line.
+ *
+ * @param origin     3 finite numbers: a point of the line
+ * @param direction  3 finite numbers, not all 0; its length does not matter
+ * @param reach      2 numbers: least and greatest length along the direction from the origin, infinities allowed (a ray: 0
+ *                   and infinity); NULL: the whole line
+ * @param tolerance  length, finite, >= 0; 0: 1e-7 x the diagonal of the curve's box
+ * @param options    as for fpt_curve_preimage
+ * @param out        the set; release it with fpt_foot_set_free
+ * @return as fpt_curve_preimage
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_on_line(const struct fpt_curve *curve,
+                             const double *origin,
+                             const double *direction,
+                             const double *reach,
+                             double tolerance,
+                             const struct fpt_query_options *options,
+                             struct fpt_foot_set **out);
+
+/**
+ * All parameters of a surface whose point lies within a tolerance of a line, or of a part of it (a ray), with proof
+ * that none is missing, in the order along the line. The distance of a member is that from the line.
+ *
+ * Crossings and touching points are members of kind point; where the line runs in the surface along a parameter
+ * line the member is an arc.
+ *
+ * @param origin     3 finite numbers: a point of the line
+ * @param direction  3 finite numbers, not all 0; its length does not matter
+ * @param reach      2 numbers: least and greatest length along the direction from the origin, infinities allowed (a ray: 0
+ *                   and infinity); NULL: the whole line
+ * @param tolerance  length, finite, >= 0; 0: 1e-7 x the diagonal of the surface's box
+ * @param options    as for fpt_surface_preimage
+ * @param out        the set; release it with fpt_foot_set_free
+ * @return as fpt_surface_preimage
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_on_line(const struct fpt_surface *surface,
+                               const double *origin,
+                               const double *direction,
+                               const double *reach,
+                               double tolerance,
+                               const struct fpt_query_options *options,
+                               struct fpt_foot_set **out);
+
+/**
+ * The number of members.
+ * @since 0.1
+ */
+FPT_MUST_USE fpt_status fpt_foot_set_count(const struct fpt_foot_set *set, size_t *out_count);
+
+/**
+ * A member.
+ *
+ * @param index  below the count, else FPT_INVALID_ARGUMENT
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_foot_set_get(const struct fpt_foot_set *set,
+                            size_t index,
+                            struct fpt_foot_member *out);
+
+/**
+ * The number of boxes that are undecided: 0 for a complete set.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_foot_set_undecided_count(const struct fpt_foot_set *set,
+                                        size_t *out_count);
+
+/**
+ * A box that is undecided: more members may lie in it.
+ *
+ * @param index   below the count, else FPT_INVALID_ARGUMENT
+ * @param out_uv  4 numbers: start and end of u, start and end of v (0, 0 on a curve)
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_foot_set_undecided_get(const struct fpt_foot_set *set,
+                                      size_t index,
+                                      double *out_uv);
+
+/**
+ * Releases a set. NULL is fine. No other call may use the handle during or after this one.
+ * @since 0.1
+ */
+void fpt_foot_set_free(struct fpt_foot_set *set);
 
 #ifdef __cplusplus
 }  // extern "C"
