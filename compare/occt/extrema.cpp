@@ -68,7 +68,7 @@ struct Times {
 struct Theirs {
     size_t queries = 0, failed = 0, crashed = 0, hung = 0, skipped = 0;
     size_t solutions = 0, repeated = 0, loose = 0, not_stationary = 0;
-    size_t on_border = 0, border_missing = 0, nearly = 0;
+    size_t on_border = 0, border_wanted = 0, border_missing = 0, nearly = 0;
     std::map<Match, size_t> found;
     Times times;
 
@@ -136,14 +136,18 @@ std::string describe(const Shape &shape, const Pair &at, const Query &query, con
 
 bool on_border(const Shape &shape, const Pair &at) {
     for (int k = 0; k < shape.dimensions(); k++) {
-        const double start = (at[k] - shape.low(k)) / shape.width(k), end = (shape.high(k) - at[k]) / shape.width(k);
-        const bool collapsed = (start < ON_BORDER && shape.collapsed(2 * k)) ||
-                               (end < ON_BORDER && shape.collapsed(2 * k + 1));
-        if (collapsed || (!shape.closed(k) && std::min(start, end) < ON_BORDER)) {
+        const double end = std::min(at[k] - shape.low(k), shape.high(k) - at[k]) / shape.width(k);
+        if (!shape.closed(k) && end < ON_BORDER) {
             return true;
         }
     }
-    return false;
+    return collapsed_side(shape, at) >= 0;
+}
+
+// Whether a place on a border counts: the slope along it is zero, or it is a collapsed point that is an extremum.
+bool counts_on_border(const Shape &shape, const Pair &at, const Vec &query) {
+    const int side = collapsed_side(shape, at);
+    return side < 0 ? shape.stationarity(at, query).slope <= 1e-9 : collapsed_is_extreme(shape, query, side);
 }
 
 // Looks for each solution among ours.
@@ -165,7 +169,9 @@ void compare(const Shape &shape, const Place &place, const std::string &whose, c
         const bool refined = shape.refine(at, query, REACH);
         if (on_border(shape, given) || on_border(shape, at)) {
             theirs.on_border++;
-            const bool missing = (stationary || refined) && match(shape, query, at, ours) == Match::MISSING;
+            const bool wanted = counts_on_border(shape, at, query);
+            theirs.border_wanted += wanted;
+            const bool missing = wanted && match(shape, query, at, ours) == Match::MISSING;
             theirs.border_missing += missing;
             if (missing) {
                 report.note("border, missing", whose + " " + place.text() + describe(shape, at, *place.query, ours));
@@ -300,8 +306,9 @@ void run_case(const Settings &settings, const std::string &name, Report &report)
 void print(const std::string &name, const Theirs &t) {
     std::printf("\n%s\n  queries %zu (failed %zu, crashed %zu, hung %zu, left out for time %zu)\n", name.c_str(),
                 t.queries, t.failed, t.crashed, t.hung, t.skipped);
-    std::printf("  solutions %zu: repeated %zu, not stationary %zu, on borders %zu (of these missing in ours %zu)\n",
-                t.solutions, t.repeated, t.not_stationary, t.on_border, t.border_missing);
+    std::printf("  solutions %zu: repeated %zu, not stationary %zu, on borders %zu (stationary there %zu, of these missing in ours "
+                "%zu)\n",
+                t.solutions, t.repeated, t.not_stationary, t.on_border, t.border_wanted, t.border_missing);
     const size_t found = t.of(Match::PARAMETERS) + t.of(Match::INTERVALS) + t.of(Match::SPACE) + t.of(Match::LEVEL);
     std::printf("  inside and stationary %zu (only after Newton %zu)\n", found + t.of(Match::UNDECIDED) + t.of(Match::MISSING),
                 t.loose);

@@ -12,6 +12,8 @@ namespace {
 constexpr double SAME = 1e-6;
 // Points in space that agree to this share of the diagonal are the same.
 constexpr double SAME_POINT = 1e-7;
+// A place this close to a collapsed side is on it.
+constexpr double SAME_SIDE = 1e-7;
 // Slopes (cosines) of our members may be this large.
 constexpr double LEAST_SLOPE = 1e-7;
 
@@ -53,23 +55,27 @@ std::vector<Pair> samples(const Shape &shape, const fpt_foot_member &m, int step
     return list;
 }
 
-// The collapsed side on which an interval member lies, or -1.
-int collapsed_side(const Shape &shape, const fpt_foot_member &m) {
-    const double values[4] = {shape.low(0), shape.high(0), shape.low(1), shape.high(1)};
-    for (int side = 0; side < 4; side++) {
-        const double *interval = side < 2 ? m.u : m.v;
-        if (shape.collapsed(side) && interval[0] == values[side] && interval[1] == values[side]) {
+} // namespace
+
+int collapsed_side(const Shape &shape, const Pair &at) {
+    for (int side = 0; side < 2 * shape.dimensions(); side++) {
+        const int k = side / 2;
+        const double end = side % 2 == 0 ? shape.low(k) : shape.high(k);
+        if (shape.collapsed(side) && std::fabs(at[k] - end) <= SAME_SIDE * shape.width(k)) {
             return side;
         }
     }
     return -1;
 }
 
-Verdict verify_collapsed(const Shape &shape, const Vec &query, const fpt_foot_member &m, int side) {
+bool collapsed_is_extreme(const Shape &shape, const Vec &query, int side) {
     bool rises = true, falls = true;
-    const int k = side / 2;
+    const int k = side / 2, other = 1 - k;
     const double inward = side % 2 == 0 ? 1.0 : -1.0;
-    for (const Pair &at : samples(shape, m, 32)) {
+    for (int i = 0; i <= 64; i++) {
+        Pair at;
+        at[k] = side % 2 == 0 ? shape.low(k) : shape.high(k);
+        at[other] = shape.low(other) + i / 64.0 * shape.width(other);
         const std::array<int, 2> sides = {at[0] == shape.high(0) ? -1 : 1, at[1] == shape.high(1) ? -1 : 1};
         const Jet j = shape.jet(at, 1, sides);
         const Vec r = minus(j.point, query);
@@ -78,10 +84,8 @@ Verdict verify_collapsed(const Shape &shape, const Vec &query, const fpt_foot_me
         rises = rises && slope >= -least;
         falls = falls && slope <= least;
     }
-    return rises || falls ? Verdict::STATIONARY : Verdict::WRONG;
+    return rises || falls;
 }
-
-} // namespace
 
 Ours our_extrema(const Shape &shape, const Vec &query) {
     Ours ours;
@@ -177,10 +181,10 @@ Verdict verify(const Shape &shape, const Vec &query, const fpt_foot_member &m, s
         reason = text;
         return Verdict::WRONG;
     }
-    const int side = m.kind == FPT_MEMBER_POINT ? -1 : collapsed_side(shape, m);
-    if (side >= 0) {
+    const int side = collapsed_side(shape, foot_of(m));
+    if (side >= 0 && collapsed_is_extreme(shape, query, side)) {
         reason = "collapsed edge";
-        return verify_collapsed(shape, query, m, side);
+        return Verdict::STATIONARY;
     }
     double change = 0.0;
     for (const Pair &at : samples(shape, m, 8)) {

@@ -37,6 +37,12 @@ enum class Verdict { STATIONARY, LEVEL, WRONG };
 // Whether a member is what it says. LEVEL: the slope is not zero, but the distance stays within the accuracy.
 Verdict verify(const Shape &shape, const Vec &query, const fpt_foot_member &member, std::string &reason);
 
+// The collapsed side on which a place lies, or -1.
+int collapsed_side(const Shape &shape, const Pair &at);
+
+// Whether the point of a collapsed side is the nearest or the farthest along every line that leaves it.
+bool collapsed_is_extreme(const Shape &shape, const Vec &query, int side);
+
 // Whether nearer places around a minimum or farther ones around a maximum contradict its nature.
 bool nature_is_wrong(const Shape &shape, const Vec &query, const fpt_foot_member &member);
 
