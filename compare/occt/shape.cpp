@@ -243,18 +243,22 @@ Stationarity Shape::stationarity(const Pair &at, const Vec &query) const {
 }
 
 // The shortest step to where the second-order model is stationary, in lengths of the tangents; flat directions are left.
-bool Shape::step(const Pair &at, const Vec &query, const std::array<int, 2> &sides, Pair &out) const {
+bool Shape::step(const Pair &at, const Vec &query, const std::array<int, 2> &sides, int held, Pair &out) const {
     const Jet j = jet(at, 2, sides);
     const Vec r = minus(j.point, query);
     const double least = 1e-12 * diagonal_;
+    if (is_curve() || held >= 0) {
+        const int k = is_curve() ? 0 : 1 - held;
+        const double speed = std::max(norm(j.first[k]), least / width(k));
+        const double bend = dot(r, j.second[2 * k]) / (speed * speed);
+        const double a = dot(j.first[k], j.first[k]) / (speed * speed) + bend;
+        out = {0.0, 0.0};
+        out[k] = std::fabs(a) < FLAT * (1.0 + std::fabs(bend)) ? 0.0 : -dot(r, j.first[k]) / (a * speed * speed);
+        return std::isfinite(out[k]);
+    }
     const double p = std::max(norm(j.first[0]), least / width(0));
     const double a = (dot(j.first[0], j.first[0]) + dot(r, j.second[0])) / (p * p);
     const double x = dot(r, j.first[0]) / p;
-    if (is_curve()) {
-        const double size = 1.0 + std::fabs(dot(r, j.second[0])) / (p * p);
-        out = {std::fabs(a) < FLAT * size ? 0.0 : -x / a / p, 0.0};
-        return true;
-    }
     const double q = std::max(norm(j.first[1]), least / width(1));
     const double b = (dot(j.first[0], j.first[1]) + dot(r, j.second[1])) / (p * q);
     const double c = (dot(j.first[1], j.first[1]) + dot(r, j.second[2])) / (q * q);
@@ -282,7 +286,7 @@ bool Shape::step(const Pair &at, const Vec &query, const std::array<int, 2> &sid
     return std::isfinite(s) && std::isfinite(t);
 }
 
-bool Shape::refine(Pair &at, const Vec &query, double reach) const {
+bool Shape::refine(Pair &at, const Vec &query, double reach, int held) const {
     Pair x = snapped(at);
     const Pair start = x;
     double box[2][2] = {{0, 0}, {0, 0}};
@@ -299,13 +303,13 @@ bool Shape::refine(Pair &at, const Vec &query, double reach) const {
             sides[k] = x[k] == box[k][1] ? -1 : 1;
         }
         Pair move;
-        if (!step(x, query, sides, move)) {
+        if (!step(x, query, sides, held, move)) {
             return false;
         }
         double size = 0.0;
         for (int k = 0; k < dimensions(); k++) {
             double next = x[k] + std::clamp(move[k], -0.1 * width(k), 0.1 * width(k));
-            if (closed_[k] && breaks_[k].size() == 2) {
+            if (k != held && closed_[k] && breaks_[k].size() == 2) {
                 next = next < low(k) ? next + width(k) : next > high(k) ? next - width(k) : next;
             }
             next = std::clamp(next, box[k][0], box[k][1]);
@@ -322,6 +326,27 @@ bool Shape::refine(Pair &at, const Vec &query, double reach) const {
     }
     at = x;
     return true;
+}
+
+int Shape::trend(const Pair &at, const Pair &way, const Vec &query) const {
+    std::array<int, 2> sides = {1, 1};
+    for (int k = 0; k < dimensions(); k++) {
+        sides[k] = way[k] < 0.0 ? -1 : way[k] > 0.0 || at[k] != high(k) ? 1 : -1;
+    }
+    const Jet j = jet(at, 2, sides);
+    const Vec r = minus(j.point, query);
+    Vec first, second;
+    for (int i = 0; i < 3; i++) {
+        first[i] = way[0] * j.first[0][i] + way[1] * j.first[1][i];
+        second[i] = way[0] * way[0] * j.second[0][i] + 2.0 * way[0] * way[1] * j.second[1][i] +
+                    way[1] * way[1] * j.second[2][i];
+    }
+    const double speed = norm(first);
+    const double slope = dot(r, first), bend = dot(first, first) + dot(r, second);
+    if (std::fabs(slope) > speed * (1e-9 * norm(r) + 1e-14 * (largest_ + norm(query)))) {
+        return slope > 0.0 ? 1 : -1;
+    }
+    return std::fabs(bend) <= 1e-6 * speed * speed ? 0 : bend > 0.0 ? 1 : -1;
 }
 
 std::string Shape::flat_text(const Pair &at, const Vec &query) const {

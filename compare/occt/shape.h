@@ -81,16 +81,20 @@ public:
     double apart(int k, double a, double b) const;
     double apart(const Pair &a, const Pair &b) const;
     Stationarity stationarity(const Pair &at, const Vec &query) const;
-    // Newton's method from `at` inside its smooth piece, at most `reach` of the domain away.
-    bool refine(Pair &at, const Vec &query, double reach) const;
+    // Newton's method from `at` inside its smooth piece, at most `reach` of the domain away; parameter `held` stays.
+    bool refine(Pair &at, const Vec &query, double reach, int held = -1) const;
     // Moves a parameter that is next to a knot where the shape is only continuous onto it.
     Pair snapped(Pair at) const;
+    // Ends of the pieces and of the domain.
+    const std::vector<double> &breaks(int k) const { return breaks_[k]; }
+    // Whether the distance bends or slopes towards `way` at first: +1 away from the query, -1 to it, 0 not clear.
+    int trend(const Pair &at, const Pair &way, const Vec &query) const;
     std::string flat_text(const Pair &at, const Vec &query) const;
 
 private:
     double slope_across(int k, const Pair &at, const Vec &query, bool &border) const;
     double directed(int k, const Pair &at, const std::array<int, 2> &sides, const Vec &query) const;
-    bool step(const Pair &at, const Vec &query, const std::array<int, 2> &sides, Pair &out) const;
+    bool step(const Pair &at, const Vec &query, const std::array<int, 2> &sides, int held, Pair &out) const;
 
     fpt_curve *curve_ = nullptr;
     fpt_surface *surface_ = nullptr;

@@ -68,7 +68,7 @@ int collapsed_side(const Shape &shape, const Pair &at) {
     return -1;
 }
 
-bool collapsed_is_extreme(const Shape &shape, const Vec &query, int side) {
+bool collapsed_is_extreme(const Shape &shape, const Vec &query, int side, double cosine) {
     bool rises = true, falls = true;
     const int k = side / 2, other = 1 - k;
     const double inward = side % 2 == 0 ? 1.0 : -1.0;
@@ -80,7 +80,7 @@ bool collapsed_is_extreme(const Shape &shape, const Vec &query, int side) {
         const Jet j = shape.jet(at, 1, sides);
         const Vec r = minus(j.point, query);
         const double slope = inward * dot(r, j.first[k]);
-        const double least = norm(j.first[k]) * (LEAST_SLOPE * norm(r) + shape.floor(query));
+        const double least = norm(j.first[k]) * (cosine * norm(r) + shape.floor(query));
         rises = rises && slope >= -least;
         falls = falls && slope <= least;
     }
@@ -182,7 +182,7 @@ Verdict verify(const Shape &shape, const Vec &query, const fpt_foot_member &m, s
         return Verdict::WRONG;
     }
     const int side = collapsed_side(shape, foot_of(m));
-    if (side >= 0 && collapsed_is_extreme(shape, query, side)) {
+    if (side >= 0 && collapsed_is_extreme(shape, query, side, LEAST_SLOPE)) {
         reason = "collapsed edge";
         return Verdict::STATIONARY;
     }
@@ -226,6 +226,8 @@ bool nature_is_wrong(const Shape &shape, const Vec &query, const fpt_foot_member
                     at[k] += at[k] < shape.low(k) ? shape.width(k) : -shape.width(k);
                 }
             }
+            // A slope or bend the right way at the place itself is no contradiction, however soon it turns.
+            outside = outside || sign * shape.trend(foot_of(m), turn, query) > 0.0;
             seen = seen || (!outside && sign * (shape.distance(at, query) - here) < -rounding);
         }
         contradictions += seen;
@@ -233,19 +235,53 @@ bool nature_is_wrong(const Shape &shape, const Vec &query, const fpt_foot_member
     return contradictions == 2;
 }
 
+namespace {
+
+// At most `most` of a list, evenly.
+std::vector<double> some(const std::vector<double> &list, size_t most) {
+    std::vector<double> chosen;
+    const size_t count = std::min(most, list.size());
+    for (size_t k = 0; k < count; k++) {
+        chosen.push_back(list[count == 1 ? 0 : k * (list.size() - 1) / (count - 1)]);
+    }
+    return chosen;
+}
+
+} // namespace
+
 std::vector<Pair> multi_start(const Shape &shape, const Vec &query, int starts) {
     std::vector<Pair> list;
+    const auto take = [&](Pair at, int held) {
+        const auto known = [&](const Pair &other) { return shape.apart(at, other) <= SAME; };
+        if (shape.refine(at, query, 2.0, held) && std::none_of(list.begin(), list.end(), known)) {
+            list.push_back(at);
+        }
+    };
+    const auto at_share = [&](int k, double x) { return shape.low(k) + x * shape.width(k); };
     for (int i = 0; i < starts; i++) {
         // Additive recurrences of the plastic number: evenly spread for any count.
         const double a = std::fmod(0.5 + 0.7548776662466927 * i, 1.0);
         const double b = std::fmod(0.5 + 0.5698402909980532 * i, 1.0);
-        Pair at = {shape.low(0) + a * shape.width(0), shape.is_curve() ? 0.0 : shape.low(1) + b * shape.width(1)};
-        if (!shape.refine(at, query, 2.0)) {
-            continue;
+        take({at_share(0, a), shape.is_curve() ? 0.0 : at_share(1, b)}, -1);
+    }
+    constexpr size_t LINES = 12;
+    constexpr int ON_LINE = 8;
+    for (int k = 0; k < shape.dimensions(); k++) {
+        for (double x : some(shape.breaks(k), LINES)) {
+            for (int i = 0; i < ON_LINE && !shape.is_curve(); i++) {
+                Pair at;
+                at[k] = x;
+                at[1 - k] = at_share(1 - k, (i + 0.5) / ON_LINE);
+                take(at, k);
+            }
         }
-        const auto known = [&](const Pair &other) { return shape.apart(at, other) <= SAME; };
-        if (std::none_of(list.begin(), list.end(), known)) {
-            list.push_back(at);
+    }
+    const std::vector<double> none = {0.0};
+    for (double u : some(shape.breaks(0), LINES)) {
+        for (double v : shape.is_curve() ? none : some(shape.breaks(1), LINES)) {
+            if (shape.stationarity({u, v}, query).slope <= 1e-9) {
+                list.push_back({u, v});
+            }
         }
     }
     return list;

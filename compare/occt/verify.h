@@ -40,13 +40,15 @@ Verdict verify(const Shape &shape, const Vec &query, const fpt_foot_member &memb
 // The collapsed side on which a place lies, or -1.
 int collapsed_side(const Shape &shape, const Pair &at);
 
-// Whether the point of a collapsed side is the nearest or the farthest along every line that leaves it.
-bool collapsed_is_extreme(const Shape &shape, const Vec &query, int side);
+// Whether the point of a collapsed side is the nearest or the farthest along every line that leaves it; slopes up to
+// `least` (cosines) count as none.
+bool collapsed_is_extreme(const Shape &shape, const Vec &query, int side, double least);
 
 // Whether nearer places around a minimum or farther ones around a maximum contradict its nature.
 bool nature_is_wrong(const Shape &shape, const Vec &query, const fpt_foot_member &member);
 
-// Stationary places that Newton's method finds from `starts` places spread over the domain.
+// Stationary places that Newton's method finds from `starts` places spread over the domain, and from some on its
+// borders and creases; their crossings too.
 std::vector<Pair> multi_start(const Shape &shape, const Vec &query, int starts);
 
 #endif
