@@ -147,7 +147,7 @@ bool on_border(const Shape &shape, const Pair &at) {
 // Whether a place on a border counts: the slope along it is zero, or it is a collapsed point that is an extremum.
 bool counts_on_border(const Shape &shape, const Pair &at, const Vec &query) {
     const int side = collapsed_side(shape, at);
-    return side < 0 ? shape.stationarity(at, query).slope <= 1e-9 : collapsed_is_extreme(shape, query, side, 1e-9);
+    return side < 0 ? shape.stationarity(at, query).slope <= 1e-10 : collapsed_is_extreme(shape, query, side, 1e-9);
 }
 
 // Looks for each solution among ours.

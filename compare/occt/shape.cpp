@@ -203,7 +203,7 @@ double Shape::directed(int k, const Pair &at, const std::array<int, 2> &sides, c
     const Jet jet = this->jet(at, 1, sides);
     const Vec r = minus(jet.point, query);
     // Where the derivative vanishes the direction says nothing.
-    const double speed = std::max(norm(jet.first[k]), 1e-9 * diagonal_ / width(k));
+    const double speed = std::max(norm(jet.first[k]), 1e-7 * diagonal_ / width(k));
     const double slope = dot(r, jet.first[k]) / speed;
     const double rounding = floor(query);
     return std::fabs(slope) <= rounding ? 0.0 : slope / std::max(norm(r), rounding);
@@ -321,7 +321,7 @@ bool Shape::refine(Pair &at, const Vec &query, double reach, int held) const {
         }
     }
     x = snapped(x);
-    if (apart(x, start) > reach || stationarity(x, query).slope > 1e-9) {
+    if (apart(x, start) > reach || stationarity(x, query).slope > 1e-10) {
         return false;
     }
     at = x;

@@ -279,7 +279,7 @@ std::vector<Pair> multi_start(const Shape &shape, const Vec &query, int starts) 
     const std::vector<double> none = {0.0};
     for (double u : some(shape.breaks(0), LINES)) {
         for (double v : shape.is_curve() ? none : some(shape.breaks(1), LINES)) {
-            if (shape.stationarity({u, v}, query).slope <= 1e-9) {
+            if (shape.stationarity({u, v}, query).slope <= 1e-10) {
                 list.push_back({u, v});
             }
         }
