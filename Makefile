@@ -3,14 +3,17 @@ CARGO  ?= cargo
 BUILD  ?= build
 PREFIX ?= /usr/local
 JOBS   ?= $(shell nproc 2>/dev/null || echo 2)
+SEED    ?= 1
+QUERIES ?= 10000000
+THREADS ?= $(JOBS)
+CASES   ?= ../shared/cases
 
-CASES  ?= ../shared/cases
-
-.PHONY: help build test test-rust test-c demo compare-occt install clean
+.PHONY: help build test test-rust test-c stress demo compare-occt install clean
 
 help:
 	@echo "make build             build the library, shared and static, into $(BUILD)/lib"
 	@echo "make test              run every test"
+	@echo "make stress            ask QUERIES=10000000 difficult queries, each checked; also SEED, THREADS"
 	@echo "make demo              run the demonstration (a minute); pictures go to demo-out/"
 	@echo "make compare-occt      compare the extrema with OpenCASCADE 7.6 on the cases in $(CASES) (minutes)"
 	@echo "make install PREFIX=p  install library, headers and pkg-config file (default $(PREFIX))"
@@ -60,6 +63,10 @@ test-c:
 	$(call configure,ON)
 	cmake --build $(BUILD) -j $(JOBS)
 	cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
+
+# Ten million take a quarter of an hour on two cores. The exit code says whether anything was wrong.
+stress:
+	$(CARGO) bench --locked --bench stress -- seed=$(SEED) queries=$(QUERIES) threads=$(THREADS) out=stress.txt
 
 demo:
 	$(call need,cmake)

@@ -1076,6 +1076,49 @@ fpt_status fpt_surface_extrema(const struct fpt_surface *surface,
                                struct fpt_foot_set **out);
 
 /**
+ * The number of members.
+ * @since 0.1
+ */
+FPT_MUST_USE fpt_status fpt_foot_set_count(const struct fpt_foot_set *set, size_t *out_count);
+
+/**
+ * A member.
+ *
+ * @param index  below the count, else FPT_INVALID_ARGUMENT
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_foot_set_get(const struct fpt_foot_set *set,
+                            size_t index,
+                            struct fpt_foot_member *out);
+
+/**
+ * The number of boxes that are undecided: 0 for a complete set.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_foot_set_undecided_count(const struct fpt_foot_set *set,
+                                        size_t *out_count);
+
+/**
+ * A box that is undecided: more members may lie in it.
+ *
+ * @param index   below the count, else FPT_INVALID_ARGUMENT
+ * @param out_uv  4 numbers: start and end of u, start and end of v (0, 0 on a curve)
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_foot_set_undecided_get(const struct fpt_foot_set *set,
+                                      size_t index,
+                                      double *out_uv);
+
+/**
+ * Releases a set. NULL is fine. No other call may use the handle during or after this one.
+ * @since 0.1
+ */
+void fpt_foot_set_free(struct fpt_foot_set *set);
+
+/**
  * All parameters of a curve whose point lies within a tolerance of a line, or of a part of it (a ray), with proof that
  * none is missing, in the order along the line. The distance of a member is that from the line.
  *
@@ -1125,47 +1168,49 @@ fpt_status fpt_surface_on_line(const struct fpt_surface *surface,
                                struct fpt_foot_set **out);
 
 /**
- * The number of members.
- * @since 0.1
- */
-FPT_MUST_USE fpt_status fpt_foot_set_count(const struct fpt_foot_set *set, size_t *out_count);
-
-/**
- * A member.
+ * The point of a curve on the line through each query point along a direction, to either side, that is nearest to the
+ * query point.
  *
- * @param index  below the count, else FPT_INVALID_ARGUMENT
- * @since 0.1
- */
-FPT_MUST_USE
-fpt_status fpt_foot_set_get(const struct fpt_foot_set *set,
-                            size_t index,
-                            struct fpt_foot_member *out);
-
-/**
- * The number of boxes that are undecided: 0 for a complete set.
- * @since 0.1
- */
-FPT_MUST_USE
-fpt_status fpt_foot_set_undecided_count(const struct fpt_foot_set *set,
-                                        size_t *out_count);
-
-/**
- * A box that is undecided: more members may lie in it.
+ * A record has distance = |query - point|, and lower_bound: nothing of the curve within the tolerance of the line
+ * is nearer. Where the line misses the curve the record has FPT_FOOT_NOT_ON_SHAPE, NaN in u, v and point, and an infinite
+ * distance. FPT_FOOT_NOT_PROVEN with FPT_FOOT_BUDGET: parts of the curve were not decided.
  *
- * @param index   below the count, else FPT_INVALID_ARGUMENT
- * @param out_uv  4 numbers: start and end of u, start and end of v (0, 0 on a curve)
+ * @param points     as for fpt_curve_closest
+ * @param count      as for fpt_curve_closest
+ * @param direction  3 finite numbers, not all 0; its length does not matter
+ * @param options    tolerance: how far from the line counts as on it (0: 1e-7 x the diagonal of the curve's box);
+ *                   hints, method, scope and trace are not used; NULL: the defaults
+ * @param out        as for fpt_curve_closest
+ * @return as fpt_curve_closest
  * @since 0.1
  */
 FPT_MUST_USE
-fpt_status fpt_foot_set_undecided_get(const struct fpt_foot_set *set,
-                                      size_t index,
-                                      double *out_uv);
+fpt_status fpt_curve_project(const struct fpt_curve *curve,
+                             const double *points,
+                             size_t count,
+                             const double *direction,
+                             const struct fpt_query_options *options,
+                             struct fpt_foot_point *out);
 
 /**
- * Releases a set. NULL is fine. No other call may use the handle during or after this one.
+ * The point of a surface on the line through each query point along a direction, to either side, that is nearest to the
+ * query point: as fpt_curve_project.
+ *
+ * @param points     as for fpt_surface_closest
+ * @param count      as for fpt_surface_closest
+ * @param direction  3 finite numbers, not all 0; its length does not matter
+ * @param options    as for fpt_curve_project
+ * @param out        as for fpt_surface_closest
+ * @return as fpt_surface_closest
  * @since 0.1
  */
-void fpt_foot_set_free(struct fpt_foot_set *set);
+FPT_MUST_USE
+fpt_status fpt_surface_project(const struct fpt_surface *surface,
+                               const double *points,
+                               size_t count,
+                               const double *direction,
+                               const struct fpt_query_options *options,
+                               struct fpt_foot_point *out);
 
 #ifdef __cplusplus
 }  // extern "C"

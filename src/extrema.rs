@@ -50,6 +50,11 @@ pub struct ExtremaOptions {
 /// Boxes that one request may take by default.
 pub const DEFAULT_BUDGET: u64 = 20_000;
 
+/// Iterations that give a zero its last digits, and the longest step they may take (of a piece): longer ones say that the
+/// polynomials and the shape itself do not agree.
+const POLISH_STEPS: usize = 6;
+const LONGEST_POLISH: f64 = 1e-4;
+
 /// Largest coordinate of a query, in the size of the shape, whose products cannot overflow.
 const GREATEST_REACH: f64 = 1e60;
 

@@ -7,7 +7,7 @@
 //! ```text
 //!   C call -> guard -> arguments (pointers, counts, strides)   memory.rs, limits.rs
 //!                   -> options, records (struct layouts)       options.rs, records.rs
-//!                   -> Curve, Surface, closest, batch          curve.rs, surface.rs, query.rs, sets.rs
+//!                   -> Curve, Surface, closest, batch          curve.rs, surface.rs, query.rs, sets.rs, lines.rs
 //!          <- fpt_status, text of a failure for fpt_last_error
 //! ```
 //!
@@ -26,6 +26,7 @@ mod curve;
 mod surface;
 mod query;
 mod sets;
+mod lines;
 #[cfg(test)]
 mod tests;
 

@@ -2,7 +2,9 @@
 
 use super::gradient::View;
 use super::nature::{Signs, end_of, from_samples};
-use super::{Candidate, ExtremaOptions, Source, flat_limit, is_reachable, kind};
+use super::{
+    Candidate, ExtremaOptions, LONGEST_POLISH, POLISH_STEPS, Source, flat_limit, is_reachable, kind,
+};
 use crate::bezier::Bidegree;
 use crate::bounds::{Vector, norm, sub};
 use crate::closest::{FootPoint, flag, rounding_floor};
@@ -106,23 +108,23 @@ impl Line<'_> {
         self.net.jet(s, self.query)
     }
 
-    fn polish(&self, s: f64) -> f64 {
+    /// Newton for the derivative from a zero of the polynomial, whose digits the subdivision has worn; `None` when the two
+    /// do not agree.
+    fn polish(&self, s: f64) -> Option<f64> {
         let mut s = s;
-        for _ in 0..4 {
+        for _ in 0..POLISH_STEPS {
             let jet = self.jet(s);
             let step = -jet.gradient() / jet.hessian();
-            if step.is_nan() || step.abs() > 1e-6 {
-                break;
+            if step.is_nan() || step.abs() > LONGEST_POLISH {
+                return None;
             }
             s = (s + step).clamp(self.range[0], self.range[1]);
+            if step.abs() < 1e-15 {
+                break;
+            }
         }
-        if s < ON_END {
-            0.0
-        } else if s > 1.0 - ON_END {
-            1.0
-        } else {
-            s
-        }
+        let low = if s < ON_END { 0.0 } else { s };
+        Some(if s > 1.0 - ON_END { 1.0 } else { low })
     }
 }
 
@@ -175,12 +177,11 @@ impl<'a> Search<'a> {
 
     fn take(&mut self, line: &Line, zero: &Zero<1>) {
         let ends = [zero.low[0], zero.high[0]];
-        match zero.found {
-            Found::Root => {
-                self.push(line, line.polish(line.local(zero.at[0])), ends, Source::Inside)
-            }
-            Found::Flat => self.push(line, line.local(zero.at[0]), ends, Source::Flat),
-            Found::Undecided => {
+        let at = line.local(zero.at[0]);
+        match (zero.found, line.polish(at)) {
+            (Found::Flat, _) => self.push(line, at, ends, Source::Flat),
+            (Found::Root, Some(at)) => self.push(line, at, ends, Source::Inside),
+            _ => {
                 let [a, b] = ends.map(|x| self.global(line, x));
                 self.undecided.push([a, b, 0.0, 0.0]);
             }

@@ -107,6 +107,16 @@ impl Signs {
         self.across.contains(&[true, true])
     }
 
+    /// The verdict on a continuum, along which nothing changes: what the signs across it say, if they say anything.
+    pub fn nature_across(&self) -> Option<Nature> {
+        match (self.up, self.down) {
+            (true, true) => Some(Nature::Saddle),
+            (true, false) => Some(Nature::Minimum),
+            (false, true) => Some(Nature::Maximum),
+            (false, false) => None,
+        }
+    }
+
     /// The verdict.
     pub fn nature(&self) -> Nature {
         match (self.up, self.down, self.zero) {

@@ -39,7 +39,7 @@ pub unsafe extern "C" fn fpt_curve_closest(
     guard(|| unsafe {
         let curve = curve::indexed(curve)?;
         Batch::read(curve, points, count, options, out)?
-            .run(|c, q, h, o, w, t| c.closest(q, h.map(|[u]| u), o, w, t))
+            .run(|c, q, h, o, w: &mut Workspace, t| c.closest(q, h.map(|[u]| u), o, w, t))
     })
 }
 
@@ -64,7 +64,7 @@ pub unsafe extern "C" fn fpt_curve_invert(
     guard(|| unsafe {
         let curve = curve::indexed(curve)?;
         Batch::read(curve, points, count, options, out)?
-            .run(|c, q, h, o, w, t| c.invert(q, h.map(|[u]| u), o, w, t))
+            .run(|c, q, h, o, w: &mut Workspace, t| c.invert(q, h.map(|[u]| u), o, w, t))
     })
 }
 
@@ -157,18 +157,8 @@ impl Shape<2> for IndexedSurface {
     }
 }
 
-/// One operation on one query point.
-type Ask<S, const N: usize> = fn(
-    &S,
-    [f64; 3],
-    Option<[f64; N]>,
-    &QueryOptions,
-    &mut Workspace,
-    Option<Trace<'_>>,
-) -> FootPoint;
-
 /// The checked arguments of one call.
-struct Batch<'a, S, const N: usize> {
+pub(super) struct Batch<'a, S, const N: usize> {
     shape: &'a S,
     points: Strided<'a, 3>,
     hints: Option<Strided<'a, N>>,
@@ -185,7 +175,7 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
     ///
     /// # Safety
     /// Pointers that are not NULL point to what the header asks for, for as long as the call lasts.
-    unsafe fn read(
+    pub(super) unsafe fn read(
         shape: &'a S,
         points: *const f64,
         count: usize,
@@ -212,7 +202,19 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
         }
     }
 
-    fn run(self, ask: Ask<S, N>) -> Result<(), Failure> {
+    /// Asks `ask`, one operation on one query point, for every record; `W` is what a thread works with.
+    pub(super) fn run<W: Default>(
+        self,
+        ask: impl Fn(
+            &S,
+            [f64; 3],
+            Option<[f64; N]>,
+            &QueryOptions,
+            &mut W,
+            Option<Trace<'_>>,
+        ) -> FootPoint
+        + Sync,
+    ) -> Result<(), Failure> {
         let Self { shape, points, hints, ends, options, threads, callbacks, out } = self;
         let total = out.len();
         if total == 0 {
@@ -223,7 +225,7 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
             out.fill(FootPoint::unreached());
         }
         built?;
-        let work = |i: usize, workspace: &mut Workspace| {
+        let work = |i: usize, workspace: &mut W| {
             let hint = hints.and_then(|hints| hint(hints.row(i), ends));
             let mut told = |step, u, v, residual| callbacks.trace(i, step, [u, v], residual);
             let trace: Option<Trace<'_>> =

@@ -87,7 +87,7 @@ fn root(g: &[f64]) -> (f64, f64) {
     let share = (g[0] / (g[0] - g[g.len() - 1])).clamp(0.0, 1.0);
     let mut x = if share.is_finite() { share } else { 0.5 };
     let mut slope = 0.0;
-    for _ in 0..60 {
+    for _ in 0..100 {
         let (value, derivative) = value_and_slope(g, x);
         slope = derivative;
         if value == 0.0 {
@@ -99,9 +99,8 @@ fn root(g: &[f64]) -> (f64, f64) {
             low = x
         }
         let newton = x - value / derivative;
-        let next = if newton > low && newton < high { newton } else { newton.clamp(low, high) };
-        let stuck = next == low || next == high;
-        let next = if stuck && low > 0.0 && high < 1.0 { 0.5 * (low + high) } else { next };
+        let inside = newton > low && newton < high;
+        let next = if inside { newton } else { 0.5 * (low + high) };
         if (next - x).abs() <= 2.0 * HALF_ULP {
             x = next;
             break;
@@ -153,6 +152,16 @@ mod tests {
             assert_eq!(zero.found, Found::Root);
             assert!((zero.at[0] - x).abs() < 1e-14, "{zero:?}");
         }
+    }
+
+    #[test]
+    fn a_zero_in_a_steep_middle_between_flat_ends_is_found() {
+        // Newton from either end leaves the interval.
+        let g = [-1.0, -0.9999, -0.9998, -0.9997, 0.9, 0.999, 0.9999, 1.0];
+        let zeros = found(&g);
+        assert_eq!(zeros.len(), 1, "{zeros:?}");
+        let (value, _) = value_and_slope(&g, zeros[0].at[0]);
+        assert!(value.abs() < 1e-15, "{value}");
     }
 
     #[test]

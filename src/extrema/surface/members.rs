@@ -96,12 +96,13 @@ impl Search<'_> {
         let found = self.flat_place(area);
         let at = [0, 1].map(|k| if flat[k] { area[2 * k] } else { found[k] });
         let mut foot = self.foot(at);
-        if flat != [false; 2] {
+        if flat != [false; 2] && foot.flags & flag::COLLAPSED == 0 {
             foot.flags |= flag::CONTINUUM | flag::TIE;
         }
         let interval = |k: usize, x: f64| [area[2 * k].min(x), area[2 * k + 1].max(x)];
         let (u, v) = (interval(0, foot.u), interval(1, foot.v));
-        let nature = self.sampled_nature(at, area);
+        let across = if flat == [false; 2] { None } else { self.signs(at).nature_across() };
+        let nature = across.unwrap_or_else(|| self.sampled_nature(at, area));
         Member { foot, u, v, kind: kind(flat), nature }
     }
 
