@@ -82,6 +82,8 @@ struct Mine {
     size_t cases = 0, queries = 0, members = 0, kind[4] = {0}, nature[4] = {0};
     size_t border = 0, in_theirs = 0, undecided_sets = 0, undecided_boxes = 0;
     size_t extra = 0, extra_inside = 0, verified = 0, level = 0, wrong = 0, all_wrong = 0, nature_wrong = 0;
+    // Pairs of members whose feet are one place.
+    size_t doubled = 0;
     Times times;
 };
 
@@ -217,6 +219,14 @@ void examine(const Shape &shape, const Place &place, const Ours &ours, const std
         const Pair foot = {m.foot.u, m.foot.v};
         const bool border = on_border(shape, foot);
         mine.border += border;
+        for (const auto *other = ours.members.data(); other != &m; other++) {
+            if (shape.apart(foot, {other->foot.u, other->foot.v}) <= 1e-7) {
+                mine.doubled++;
+                report.note("two members at one place", place.text() + " at " + std::to_string(foot[0]) + " " +
+                                                            std::to_string(foot[1]) + " kinds " +
+                                                            std::to_string(other->kind) + " " + std::to_string(m.kind));
+            }
+        }
         const auto same = [&](const Pair &at) { return belongs(shape, at, m); };
         const bool known = std::any_of(theirs.begin(), theirs.end(), same);
         mine.in_theirs += known;
@@ -331,7 +341,8 @@ void print(const std::string &name, const Mine &m) {
                 m.nature[2], m.nature[3], m.border);
     std::printf("  in OCCT %zu, not in OCCT %zu (%zu inside): stationary %zu, level %zu, NOT VERIFIED %zu\n",
                 m.in_theirs, m.extra, m.extra_inside, m.verified, m.level, m.wrong);
-    std::printf("  all members: not verified %zu, natures contradicted %zu\n", m.all_wrong, m.nature_wrong);
+    std::printf("  all members: not verified %zu, natures contradicted %zu, pairs at one place %zu\n", m.all_wrong,
+                m.nature_wrong, m.doubled);
     std::printf("  time: %s\n", m.times.text().c_str());
 }
 
