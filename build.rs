@@ -8,7 +8,7 @@ const HEADER: &str = "include/footpoint.h";
 /// Setting this variable writes the header instead of comparing it.
 const WRITE: &str = "FOOTPOINT_WRITE_HEADER";
 /// The files that hold the C API, in the order in which the header has them.
-const SOURCES: [&str; 8] = [
+const SOURCES: [&str; 10] = [
     "src/ffi.rs",
     "src/ffi/records.rs",
     "src/ffi/options.rs",
@@ -17,6 +17,8 @@ const SOURCES: [&str; 8] = [
     "src/ffi/query.rs",
     "src/ffi/sets.rs",
     "src/ffi/lines.rs",
+    "src/ffi/normals.rs",
+    "src/ffi/path.rs",
 ];
 
 fn main() {

@@ -177,6 +177,30 @@ void a_stop_is_thrown_and_the_records_stay() {
     CHECK(std::isnan(foot.distance) && foot.lower_bound == 0 && (foot.flags & FPT_FOOT_NOT_PROVEN));
 }
 
+void normals_and_paths_are_those_of_the_c_api() {
+    const surface shape = paper();
+    const curve round = circle();
+    const std::vector<double> points{300, 250, 100, 320, 260, 100, 575, 400, 0};
+    const auto feet = shape.closest(points);
+    double normals[9], distances[3], extents[6];
+    uint32_t flags[3];
+    CHECK_OK(fpt_surface_normals(shape.get(), points.data(), feet.data(), 3, normals, distances, flags));
+    const footpoint::directions found = shape.normals(points, feet);
+    CHECK_SAME_BITS(found.vectors.data(), normals, sizeof normals);
+    CHECK_SAME_BITS(found.signed_distances.data(), distances, sizeof distances);
+    CHECK_SAME_BITS(found.flags.data(), flags, sizeof flags);
+    CHECK_OK(fpt_surface_uncertainty(shape.get(), feet.data(), 3, 0, extents));
+    CHECK_SAME_BITS(shape.uncertainty(feet).data(), extents, sizeof extents);
+    CHECK(shape.path(points).unwrapped.size() == 6 && shape.path(points).feet[2].u == feet[2].u);
+    CHECK(shape.unwrap({5, 5}, {0.5, 0.25})[1] == 0.25);
+    CHECK(shape.evaluate_sided(0.25, 0.5, -1, 1).size() == 9);
+    const auto on_circle = round.closest({5, 1, 0, -1, 5, 0});
+    CHECK(round.tangents(on_circle).vectors.size() == 6 && round.uncertainty(on_circle, 1e-3)[0] < 1e-2);
+    CHECK(round.unwrap(9, 0.5) == 8.5 && round.evaluate_sided(1, -1, 0) == round.evaluate_sided(1, -1, 0));
+    CHECK(round.path({5, 1, 0, -1, 5, 0}).changes.size() == 2);
+    check_thrown([&] { shape.normals({1, 2, 3}, feet); }, FPT_INVALID_ARGUMENT, "points");
+}
+
 void versions_agree() {
     CHECK(footpoint::version() == FPT_VERSION && footpoint::abi_version() == FPT_ABI_VERSION);
 }
@@ -191,6 +215,7 @@ int main() {
     RUN(handles_move_and_are_handed_over);
     RUN(failures_are_thrown);
     RUN(a_stop_is_thrown_and_the_records_stay);
+    RUN(normals_and_paths_are_those_of_the_c_api);
     RUN(versions_agree);
     return check_report("wrapper");
 }

@@ -9,7 +9,7 @@
  * Failure   A function that can fail returns an fpt_status: FPT_OK (0) or a number of fpt_status_code.
  *           fpt_last_error() has the text of the calling thread's last failure; it names the parameter
  *           and the index. Outputs are written only when FPT_OK is returned (exceptions: FPT_CANCELLED
- *           and FPT_INTERNAL in _closest and _invert; sets that FPT_BUDGET_EXHAUSTED leaves incomplete
+ *           and FPT_INTERNAL in _closest, _invert and _path; sets that FPT_BUDGET_EXHAUSTED leaves incomplete
  *           are handed over too). Arguments are checked before work begins. The
  *           library never prints, exits, throws or aborts over bad input; a defect of the library itself
  *           returns FPT_INTERNAL, and handles stay valid.
@@ -18,7 +18,7 @@
  *           no alignment. An array of no elements may be NULL. Outputs must not overlap inputs.
  *           FPT_INVALID_ARGUMENT is returned for counts whose product overflows.
  * Numbers   NaN, infinity and (for knots, poles and weights) anything beyond 1e100 are refused in every
- *           array but query points (the record is marked) and hints (NaN: no hint).
+ *           array but query points (the record is marked), hints (NaN: no hint) and feet (NaN: no foot).
  * Ownership Inputs are copied. Handles belong to the caller and are released by the matching _free, in
  *           any order; _free(NULL) does nothing.
  * Threads   Handles never change after _new. A function that takes a handle as const may run on any
@@ -188,49 +188,52 @@ typedef enum fpt_scope {
 } fpt_scope;
 
 /**
- * What the parameters of a member form, for fpt_foot_member.kind.
+ * The bits that go with normals and tangents.
  */
-typedef enum fpt_member_kind {
+typedef enum fpt_normal_flag {
     /**
-     * One place. The intervals enclose what the tolerance leaves open.
+     * The side of the query cannot be told, or not from this foot alone: the query lies on the surface, beyond
+     * an open border, in the tangent plane, or at a fold; or the foot is a tie (FPT_FOOT_TIE) of a
+     * surface with borders, and another foot may tell another side. The sign is a guess.
      */
-    FPT_MEMBER_POINT = 0,
+    FPT_NORMAL_AMBIGUOUS_SIDE = 1,
     /**
-     * An interval of u with v fixed: every u in it gives the point (preimage) or the distance (extrema).
+     * Several normals meet at a crease, a corner of patches or the tip of a cone: the one given is their mean,
+     * weighted by the angles between the tangents of each patch. Tangents: the tangent breaks.
      */
-    FPT_MEMBER_ARC_U = 1,
+    FPT_NORMAL_CREASE = 2,
     /**
-     * An interval of v with u fixed.
+     * Taken as a limit from inside the domain, because the derivatives do not give it.
      */
-    FPT_MEMBER_ARC_V = 2,
+    FPT_NORMAL_LIMIT = 4,
     /**
-     * Both parameters vary.
+     * There is none, not even as a limit; its three numbers are NaN.
      */
-    FPT_MEMBER_REGION = 3,
-} fpt_member_kind;
+    FPT_NORMAL_UNDEFINED = 8,
+} fpt_normal_flag;
 
 /**
- * What the distance does around a member, for fpt_foot_member.nature. On a border of the domain only points of
- * the domain count.
+ * The bits of the changes along a path.
  */
-typedef enum fpt_member_nature {
+typedef enum fpt_path_change {
     /**
-     * Nothing around is nearer.
+     * The foot is on another branch of the shape: it does not follow from the one before while the query moves
+     * straight from point to point, or it rushes ahead more than 16 times as far as the query on the way.
      */
-    FPT_NATURE_MINIMUM = 0,
+    FPT_PATH_JUMP = 1,
     /**
-     * Nothing around is farther.
+     * The number of turns changed in a closed direction.
      */
-    FPT_NATURE_MAXIMUM = 1,
+    FPT_PATH_SEAM_CROSSED = 2,
     /**
-     * Nearer in some directions, farther in others.
+     * The foot is on a collapsed edge, or the step leads over one.
      */
-    FPT_NATURE_SADDLE = 2,
+    FPT_PATH_THROUGH_COLLAPSED = 4,
     /**
-     * It does not change to second order, and samples around do not tell.
+     * Another foot is as near within the accuracy; the one that continues the path was taken.
      */
-    FPT_NATURE_FLAT = 3,
-} fpt_member_nature;
+    FPT_PATH_TIE = 8,
+} fpt_path_change;
 
 /**
  * A curve. Immutable: any number of threads may use one at a time. The search index is built on first
@@ -1211,6 +1214,207 @@ fpt_status fpt_surface_project(const struct fpt_surface *surface,
                                const double *direction,
                                const struct fpt_query_options *options,
                                struct fpt_foot_point *out);
+
+/**
+ * The unit normal of the surface at each foot, in the direction of Su x Sv, and on which side of the surface the
+ * query lies.
+ *
+ * At a crease, a corner of patches or the tip of a cone the normal is the mean of the patches' normals weighted by
+ * the angles of the patches there; with it, other than with the normal of one patch, the sign is right
+ * wherever the surface does not cross itself near the foot. At collapsed edges and where derivatives vanish or are
+ * parallel it is a limit (FPT_NORMAL_LIMIT). For a closed surface the sign tells inside from outside.
+ *
+ * @param points      x,y,z of the query of each foot, packed; NULL: normals only, then `out_signed` must be NULL
+ * @param feet        `count` records, as the query functions give them, of this surface. NaN parameters have no
+ *                    normal; parameters outside the domain are FPT_INVALID_ARGUMENT
+ * @param count       may be 0
+ * @param out_normals 3*count numbers; NaN where there is no normal (FPT_NORMAL_UNDEFINED)
+ * @param out_signed  `count` numbers or NULL: |query - foot| where the query is on the normal's side, else
+ *                    -|query - foot|; without a normal positive, for a bad query NaN
+ * @param out_flags   `count` numbers or NULL: sums of fpt_normal_flag values
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_normals(const struct fpt_surface *surface,
+                               const double *points,
+                               const struct fpt_foot_point *feet,
+                               size_t count,
+                               double *out_normals,
+                               double *out_signed,
+                               uint32_t *out_flags);
+
+/**
+ * The unit tangent of the curve at each foot, in the direction of growing u. Where the derivative vanishes it is that of
+ * the first derivative that does not (FPT_NORMAL_LIMIT); where the tangent breaks (corners, cusps, the seam
+ * of a closed curve) it is that of the piece above, at the end of the domain of the one below (FPT_NORMAL_CREASE).
+ *
+ * @param feet         `count` records of this curve. NaN parameters have no tangent; parameters outside the domain
+ *                     are FPT_INVALID_ARGUMENT
+ * @param count        may be 0
+ * @param out_tangents 3*count numbers; NaN where there is none (FPT_NORMAL_UNDEFINED)
+ * @param out_flags    `count` numbers or NULL: sums of fpt_normal_flag values
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_tangents(const struct fpt_curve *curve,
+                              const struct fpt_foot_point *feet,
+                              size_t count,
+                              double *out_tangents,
+                              uint32_t *out_flags);
+
+/**
+ * The curve and its derivatives on one side of a parameter: they differ at knots only.
+ *
+ * @param u            in the domain, else FPT_INVALID_ARGUMENT
+ * @param side         -1: the piece below; +1: the piece above; 0: as fpt_curve_evaluate, which is the piece above.
+ *                     At an end of the domain every side is the piece inside, on closed curves too
+ * @param derivatives  highest order d, at most 31; 0: the point only
+ * @param out          3*(d + 1) numbers: C, C', C'', ... with x,y,z each. Below a knot C may differ from that of
+ *                     fpt_curve_evaluate by rounding
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_evaluate_sided(const struct fpt_curve *curve,
+                                    double u,
+                                    int32_t side,
+                                    uint32_t derivatives,
+                                    double *out);
+
+/**
+ * The surface and its partial derivatives on one side in each direction: they differ at knot lines only.
+ *
+ * @param u            in the domain, else FPT_INVALID_ARGUMENT
+ * @param v            in the domain, else FPT_INVALID_ARGUMENT
+ * @param side_u       -1: the piece below u; +1: the piece above; 0: as fpt_surface_evaluate, which is the piece
+ *                     above. At an end of the domain every side is the piece inside, in closed directions too
+ * @param side_v       the same in v
+ * @param derivatives  highest total order d, at most 31; 0: the point only
+ * @param out          3*(d + 1)*(d + 2)/2 numbers, as for fpt_surface_evaluate. Below a knot the point may differ from
+ *                     that of fpt_surface_evaluate by rounding
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_evaluate_sided(const struct fpt_surface *surface,
+                                      double u,
+                                      double v,
+                                      int32_t side_u,
+                                      int32_t side_v,
+                                      uint32_t derivatives,
+                                      double *out);
+
+/**
+ * How well each foot fixes its parameter: how far u may move while the point moves by at most the accuracy.
+ *
+ * @param feet      `count` records of this curve; NaN parameters give NaN
+ * @param count     may be 0
+ * @param accuracy  length, finite, >= 0; 0: 1e-10 x the diagonal of the curve's box
+ * @param out       `count` numbers: the greater step of both directions, right within a factor of two; at most what
+ *                  the domain leaves, on a closed curve its length
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_uncertainty(const struct fpt_curve *curve,
+                                 const struct fpt_foot_point *feet,
+                                 size_t count,
+                                 double accuracy,
+                                 double *out);
+
+/**
+ * How well each foot fixes its parameters: how far u and v may move (together) while the point moves by at most the
+ * accuracy. Near a regular point these are the half extents of an ellipse; at cusps they are larger, and at a collapsed
+ * edge the parameter along it is free.
+ *
+ * @param feet      `count` records of this surface; NaN parameters give NaN
+ * @param count     may be 0
+ * @param accuracy  length, finite, >= 0; 0: 1e-10 x the diagonal of the surface's box
+ * @param out       2*count numbers: for u and for v the greater step of both directions, right within a factor of
+ *                  two; at most what the domain leaves, in a closed direction its length
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_uncertainty(const struct fpt_surface *surface,
+                                   const struct fpt_foot_point *feet,
+                                   size_t count,
+                                   double accuracy,
+                                   double *out);
+
+/**
+ * The parameter that continues a path on a closed curve: u plus the whole number of turns (lengths of the domain) that
+ * brings it nearest to the previous one; of two as near the lesser. On an open curve u itself.
+ *
+ * @param previous  the unwrapped parameter before; finite, at most 1e9 turns away
+ * @param u         in the domain, else FPT_INVALID_ARGUMENT
+ * @param out_u     the unwrapped parameter
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_unwrap(const struct fpt_curve *curve,
+                            double previous,
+                            double u,
+                            double *out_u);
+
+/**
+ * The parameters that continue a path on a surface: in a closed direction plus the whole number of turns that brings the
+ * parameter nearest to the previous one (of two as near the lesser), in an open one as they are.
+ *
+ * @param previous  2 numbers: the unwrapped parameters before; finite, at most 1e9 turns away
+ * @param uv        2 numbers in the domain, else FPT_INVALID_ARGUMENT
+ * @param out_uv    2 numbers: the unwrapped parameters
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_unwrap(const struct fpt_surface *surface,
+                              const double *previous,
+                              const double *uv,
+                              double *out_uv);
+
+/**
+ * The parameters of a polyline of points along the curve, as a path: each answer is that of fpt_curve_invert for the point
+ * alone, with the same distance, but where another foot is as near within the accuracy the one that continues the
+ * path is taken. A bad point is stepped over.
+ *
+ * @param points        as for fpt_curve_closest, in the order of the path
+ * @param count         as for fpt_curve_closest
+ * @param options       NULL: the defaults
+ * @param out           as for fpt_curve_closest
+ * @param out_unwrapped `count` numbers or NULL: u with whole turns of a closed curve, consecutive along the path; NaN
+ *                      for a bad point
+ * @param out_changes   `count` numbers or NULL: sums of fpt_path_change values, about the step to each point
+ * @return after FPT_CANCELLED `out` is as fpt_curve_closest leaves it, perhaps not yet joined; the other arrays have
+ *         no defined contents
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_path(const struct fpt_curve *curve,
+                          const double *points,
+                          size_t count,
+                          const struct fpt_query_options *options,
+                          struct fpt_foot_point *out,
+                          double *out_unwrapped,
+                          uint32_t *out_changes);
+
+/**
+ * The parameters of a polyline of points along the surface, as a path: as fpt_curve_path, and on a collapsed edge the
+ * parameter along it stays what it was before.
+ *
+ * @param points        as for fpt_surface_closest, in the order of the path
+ * @param count         as for fpt_surface_closest
+ * @param options       NULL: the defaults
+ * @param out           as for fpt_surface_closest
+ * @param out_unwrapped 2*count numbers or NULL: u, v with whole turns in closed directions, consecutive along the path;
+ *                      NaN for a bad point
+ * @param out_changes   `count` numbers or NULL: sums of fpt_path_change values, about the step to each point
+ * @return as fpt_curve_path
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_path(const struct fpt_surface *surface,
+                            const double *points,
+                            size_t count,
+                            const struct fpt_query_options *options,
+                            struct fpt_foot_point *out,
+                            double *out_unwrapped,
+                            uint32_t *out_changes);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -58,6 +58,25 @@ struct query_options : fpt_query_options {
     }
 };
 
+/** Unit normals with sides, or unit tangents, one per foot. */
+struct directions {
+    /** x,y,z each; NaN where there is none. */
+    std::vector<double> vectors;
+    /** Signed distances of the queries; empty for tangents. */
+    std::vector<double> signed_distances;
+    /** Sums of fpt_normal_flag values. */
+    std::vector<std::uint32_t> flags;
+};
+
+/** A polyline of points on a shape, as a path. */
+struct path {
+    std::vector<fpt_foot_point> feet;
+    /** u, on a surface u,v per foot; NaN for a bad point. */
+    std::vector<double> unwrapped;
+    /** Sums of fpt_path_change values. */
+    std::vector<std::uint32_t> changes;
+};
+
 /** What the classes below share; not for callers. */
 namespace detail {
 
@@ -118,6 +137,21 @@ std::vector<fpt_foot_point> feet(query<Shape> ask, const Shape *shape, const std
     return out;
 }
 
+template <class Shape>
+using walk = fpt_status (*)(const Shape *, const double *, std::size_t, const fpt_query_options *,
+                            fpt_foot_point *, double *, std::uint32_t *);
+
+template <class Shape>
+path joined(walk<Shape> ask, const Shape *shape, const std::vector<double> &points,
+            const fpt_query_options &options, std::size_t parameters) {
+    const std::size_t count = point_count(points, options);
+    path out{std::vector<fpt_foot_point>(count), std::vector<double>(parameters * count),
+             std::vector<std::uint32_t>(count)};
+    check(ask(shape, points.data(), count, &options, out.feet.data(), out.unwrapped.data(),
+              out.changes.data()));
+    return out;
+}
+
 } // namespace detail
 
 /** A curve: owner of an fpt_curve. */
@@ -161,6 +195,13 @@ public:
         return out;
     }
 
+    /** The same of the piece below (-1) or above (+1) the parameter. */
+    std::vector<double> evaluate_sided(double u, std::int32_t side, std::uint32_t derivatives = 1) const {
+        std::vector<double> out(values(derivatives));
+        check(fpt_curve_evaluate_sided(get(), u, side, derivatives, out.data()));
+        return out;
+    }
+
     /** The values of evaluate for each parameter, one after the other. */
     std::vector<double> evaluate_many(const std::vector<double> &parameters,
                                       std::uint32_t derivatives = 0) const {
@@ -191,6 +232,31 @@ public:
     void invert(const double *points, std::size_t count, const fpt_query_options *options,
                 fpt_foot_point *out) const {
         check(fpt_curve_invert(get(), points, count, options, out));
+    }
+
+    /** The points in the order of a path, joined, as fpt_curve_path. */
+    footpoint::path path(const std::vector<double> &points,
+                         const fpt_query_options &options = query_options()) const {
+        return detail::joined<fpt_curve>(fpt_curve_path, get(), points, options, 1);
+    }
+    /** u and the whole turns that bring it nearest to the previous one. */
+    double unwrap(double previous, double u) const {
+        double out = 0;
+        check(fpt_curve_unwrap(get(), previous, u, &out));
+        return out;
+    }
+
+    /** The unit tangent at each foot. */
+    directions tangents(const std::vector<fpt_foot_point> &feet) const {
+        directions out{std::vector<double>(3 * feet.size()), {}, std::vector<std::uint32_t>(feet.size())};
+        check(fpt_curve_tangents(get(), feet.data(), feet.size(), out.vectors.data(), out.flags.data()));
+        return out;
+    }
+    /** How far u may move while the point moves by the accuracy (0: the default), for each foot. */
+    std::vector<double> uncertainty(const std::vector<fpt_foot_point> &feet, double accuracy = 0) const {
+        std::vector<double> out(feet.size());
+        check(fpt_curve_uncertainty(get(), feet.data(), feet.size(), accuracy, out.data()));
+        return out;
     }
 
 private:
@@ -284,6 +350,14 @@ public:
         return out;
     }
 
+    /** The same of the piece below (-1) or above (+1) in each direction. */
+    std::vector<double> evaluate_sided(double u, double v, std::int32_t side_u, std::int32_t side_v,
+                                       std::uint32_t derivatives = 1) const {
+        std::vector<double> out(values(derivatives));
+        check(fpt_surface_evaluate_sided(get(), u, v, side_u, side_v, derivatives, out.data()));
+        return out;
+    }
+
     /** The values of evaluate for each pair u,v of `parameters`, one after the other. */
     std::vector<double> evaluate_many(const std::vector<double> &parameters,
                                       std::uint32_t derivatives = 0) const {
@@ -316,6 +390,34 @@ public:
     void invert(const double *points, std::size_t count, const fpt_query_options *options,
                 fpt_foot_point *out) const {
         check(fpt_surface_invert(get(), points, count, options, out));
+    }
+
+    /** The points in the order of a path, joined, as fpt_surface_path. */
+    footpoint::path path(const std::vector<double> &points,
+                         const fpt_query_options &options = query_options()) const {
+        return detail::joined<fpt_surface>(fpt_surface_path, get(), points, options, 2);
+    }
+    /** u, v and the whole turns that bring them nearest to the previous ones. */
+    std::array<double, 2> unwrap(const std::array<double, 2> &previous, const std::array<double, 2> &uv) const {
+        std::array<double, 2> out{};
+        check(fpt_surface_unwrap(get(), previous.data(), uv.data(), out.data()));
+        return out;
+    }
+
+    /** The unit normal at each foot and the signed distance of its query; packed points x,y,z, one per foot. */
+    directions normals(const std::vector<double> &points, const std::vector<fpt_foot_point> &feet) const {
+        detail::require(points.size() == 3 * feet.size(), "points: need x,y,z for each foot");
+        directions out{std::vector<double>(3 * feet.size()), std::vector<double>(feet.size()),
+                       std::vector<std::uint32_t>(feet.size())};
+        check(fpt_surface_normals(get(), points.data(), feet.data(), feet.size(), out.vectors.data(),
+                                  out.signed_distances.data(), out.flags.data()));
+        return out;
+    }
+    /** How far u and v may move while the point moves by the accuracy (0: the default), for each foot. */
+    std::vector<double> uncertainty(const std::vector<fpt_foot_point> &feet, double accuracy = 0) const {
+        std::vector<double> out(2 * feet.size());
+        check(fpt_surface_uncertainty(get(), feet.data(), feet.size(), accuracy, out.data()));
+        return out;
     }
 
 private:

@@ -26,7 +26,7 @@ mod curve;
 
 mod surface;
 
-use crate::bounds::Vector;
+use crate::bounds::{Vector, norm, sub};
 use crate::set::{FootSet, Kind, Member, Nature};
 
 /// What is asked for. The default is every stationary point.
@@ -99,12 +99,40 @@ struct Candidate {
 enum Source {
     /// The gradient vanishes.
     Inside,
+    /// The gradient vanishes at the end of a piece, perhaps only by the allowance for rounding: where the zero lies
+    /// beyond, the neighbour has it inside.
+    OnEnd,
     /// A collapsed edge.
     Collapsed,
     /// The derivative along a border or crease vanishes, or it is a corner.
     Border,
     /// The distance stays within the accuracy on the area.
     Flat,
+}
+
+/// A place that has become a member.
+struct Taken {
+    area: [f64; 4],
+    point: Vector,
+    distance: f64,
+    is_flat: bool,
+}
+
+/// Points nearer to each other than this share of the diagonal may be one point seen from two pieces.
+const NEAR: f64 = 1e-8;
+
+impl Taken {
+    fn new(member: &Member, area: [f64; 4], is_flat: bool) -> Self {
+        Self { area, point: member.foot.point, distance: member.foot.distance, is_flat }
+    }
+
+    /// Whether a place whose area touches this one's is no other: two corners may be near in their parameters only.
+    fn holds(&self, point: Vector, distance: f64, diagonal: f64, accuracy: f64) -> bool {
+        if self.is_flat {
+            return (distance - self.distance).abs() <= 8.0 * accuracy;
+        }
+        norm(sub(point, self.point)) <= NEAR * diagonal + accuracy
+    }
 }
 
 /// Squared distances within the accuracy of that at distance `d`: how much they may differ.

@@ -35,6 +35,10 @@ pub mod extrema;
 
 pub mod preimage;
 
+pub mod unwrap;
+
+pub mod normal;
+
 pub mod batch;
 
 mod ffi;

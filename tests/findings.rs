@@ -218,7 +218,6 @@ fn least_of_extrema(curve: &IndexedCurve, query: [f64; 3]) -> f64 {
 }
 
 #[test]
-#[ignore = "open: the least minimum and two more are missing"]
 fn all_extrema_of_a_curve_of_degree_9_are_found() {
     let poles = [
         [0.0, -0.21742920378259722, 0.0987646337362143],
@@ -246,7 +245,6 @@ fn all_extrema_of_a_curve_of_degree_9_are_found() {
 }
 
 #[test]
-#[ignore = "open: corners are taken for one by their parameters alone"]
 fn corners_that_are_near_in_their_parameters_only_are_two_extrema() {
     let poles = [
         [-0.2938793686617971, -0.20937906224430813, 0.610149241511214],

@@ -3,7 +3,8 @@
 use super::gradient::View;
 use super::nature::{Signs, end_of, from_samples};
 use super::{
-    Candidate, ExtremaOptions, LONGEST_POLISH, POLISH_STEPS, Source, flat_limit, is_reachable, kind,
+    Candidate, ExtremaOptions, LONGEST_POLISH, POLISH_STEPS, Source, Taken, flat_limit,
+    is_reachable, kind,
 };
 use crate::bezier::Bidegree;
 use crate::bounds::{Vector, norm, sub};
@@ -180,7 +181,10 @@ impl<'a> Search<'a> {
         let at = line.local(zero.at[0]);
         match (zero.found, line.polish(at)) {
             (Found::Flat, _) => self.push(line, at, ends, Source::Flat),
-            (Found::Root, Some(at)) => self.push(line, at, ends, Source::Inside),
+            (Found::Root, Some(at)) => {
+                let source = if end_of(at) == 0.0 { Source::Inside } else { Source::OnEnd };
+                self.push(line, at, ends, source);
+            }
             _ => {
                 let [a, b] = ends.map(|x| self.global(line, x));
                 self.undecided.push([a, b, 0.0, 0.0]);
@@ -222,25 +226,35 @@ impl<'a> Search<'a> {
         let of = |flat: bool| {
             self.candidates.iter().filter(move |c| (c.source == Source::Flat) == flat).copied()
         };
-        let mut taken: Vec<[f64; 4]> = Vec::new();
+        let (mut members, mut taken) = (Vec::new(), Vec::new());
         for area in joined(of(true).map(|c| c.area).collect()) {
-            if !taken.iter().any(|known| self.is_same(known, &area)) {
-                taken.push(area);
+            let member = self.flat_member(area);
+            if !self.is_taken(&taken, &area, &member.foot) {
+                taken.push(Taken::new(&member, area, true));
+                members.push(member);
             }
         }
-        let mut members: Vec<Member> = taken.iter().map(|area| self.flat_member(*area)).collect();
         let mut points: Vec<Candidate> = of(false).collect();
         points.sort_by_key(|c| c.source);
         for candidate in points {
-            if taken.iter().any(|area| self.is_same(area, &candidate.area)) {
+            let foot = self.foot(candidate.at[0]);
+            if self.is_taken(&taken, &candidate.area, &foot) {
                 continue;
             }
-            if let Some(member) = self.point_member(&candidate) {
+            if let Some(member) = self.point_member(&candidate, foot) {
+                taken.push(Taken::new(&member, candidate.area, false));
                 members.push(member);
-                taken.push(candidate.area);
             }
         }
         members
+    }
+
+    fn is_taken(&self, taken: &[Taken], area: &[f64; 4], foot: &FootPoint) -> bool {
+        let diagonal = self.index.frame.diagonal;
+        taken.iter().any(|known| {
+            known.holds(foot.point, foot.distance, diagonal, self.accuracy)
+                && self.is_same(&known.area, area)
+        })
     }
 
     fn foot(&self, u: f64) -> FootPoint {
@@ -251,37 +265,55 @@ impl<'a> Search<'a> {
         norm(sub(self.shape.curve().evaluate(u), self.query))
     }
 
-    fn point_member(&self, candidate: &Candidate) -> Option<Member> {
-        let u = candidate.at[0];
+    /// The signs that the segments around a place tell; where it is `stationary`, those of the second derivatives.
+    fn signs(&self, u: f64, stationary: bool) -> Signs {
         let mut signs = Signs::default();
         for (piece, s) in self.index.around(u, self.range) {
             let Some(line) = self.line(piece) else { continue };
-            let at_end = |end: f64| if u == self.range[0] { 0.0 } else { end };
-            let end = if end_of(s) != 0.0 {
+            let end = if stationary {
+                0.5
+            } else if end_of(s) != 0.0 {
                 s
+            } else if u == self.range[0] {
+                0.0
             } else if u == self.range[1] {
                 1.0
             } else {
-                at_end(s)
+                s
             };
             signs.segment(&line.jet(s), end, line.position);
         }
-        if candidate.source == Source::Border && signs.passes() {
-            return None;
+        signs
+    }
+
+    fn point_member(&self, candidate: &Candidate, foot: FootPoint) -> Option<Member> {
+        let u = candidate.at[0];
+        let mut signs = self.signs(u, false);
+        if signs.passes() {
+            if candidate.source == Source::Border {
+                return None;
+            }
+            signs = self.signs(u, true);
         }
         let mut nature = signs.nature();
         if nature == Nature::Flat {
             nature = self.sampled_nature(u, candidate.area);
         }
-        let foot = self.foot(u);
         Some(Member { foot, u: [foot.u; 2], v: [0.0; 2], kind: Kind::Point, nature })
     }
 
     fn flat_member(&self, area: [f64; 4]) -> Member {
-        let middle = 0.5 * (area[0] + area[1]);
+        let inside = |c: &&Candidate| {
+            c.source == Source::Flat && c.area[0] <= area[1] && area[0] <= c.area[1]
+        };
+        let flats = self.candidates.iter().filter(inside).map(|c| c.at[0]);
+        let nearer = |a: &f64, b: &f64| self.distance(*a).total_cmp(&self.distance(*b));
+        let middle = flats.min_by(nearer).unwrap_or(area[0]);
         let flat =
             is_wide([area[0], area[1]], self.range, self.index.segments.iter().map(|s| s.u.ends));
-        let mut foot = self.foot(if flat { area[0] } else { middle });
+        // Along a continuum every place is as good: its start is the canonical one.
+        let is_near = self.distance(area[0]) <= self.distance(middle) + self.accuracy;
+        let mut foot = self.foot(if flat && is_near { area[0] } else { middle });
         if flat {
             foot.flags |= flag::CONTINUUM | flag::TIE;
         }

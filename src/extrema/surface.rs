@@ -3,7 +3,7 @@
 mod members;
 
 use super::gradient::{Slope, View};
-use super::nature::Signs;
+use super::nature::{Signs, end_of};
 use super::{
     Candidate, ExtremaOptions, LONGEST_POLISH, POLISH_STEPS, Source, flat_limit, is_reachable,
 };
@@ -346,7 +346,11 @@ impl<'a> Search<'a> {
             match zero.found {
                 Found::Undecided => self.give_up(sheet, zero.low, zero.high),
                 Found::Root => match sheet.polish(sheet.local(zero.at)) {
-                    Some(at) => self.push(sheet, at, &zero, Source::Inside),
+                    Some(at) => {
+                        let is_on_end = at.iter().any(|&x| end_of(x) != 0.0);
+                        let source = if is_on_end { Source::OnEnd } else { Source::Inside };
+                        self.push(sheet, at, &zero, source);
+                    }
                     None => self.give_up(sheet, zero.low, zero.high),
                 },
                 Found::Flat => self.push(sheet, sheet.local(zero.at), &zero, Source::Flat),
@@ -449,11 +453,28 @@ impl<'a> Search<'a> {
 
     /// The signs that the patches around a place tell.
     fn signs(&self, at: [f64; 2]) -> Signs {
+        self.signs_along(at, [false; 2])
+    }
+
+    /// The same; along the `stationary` parameters the second derivatives count, whatever is left of the first.
+    fn signs_along(&self, at: [f64; 2], stationary: [bool; 2]) -> Signs {
         let mut signs = Signs::default();
         for (piece, local) in self.index.around(at, self.range) {
             let Some(sheet) = self.sheet(piece) else { continue };
-            let local = self.ended(at, local);
-            signs.patch(&sheet.jet(local.0), local.1, sheet.position);
+            let (local, ends) = self.ended(at, local);
+            let ends = [0, 1].map(|k| if stationary[k] { 0.5 } else { ends[k] });
+            signs.patch(&sheet.jet(local), ends, sheet.position);
+        }
+        signs
+    }
+
+    /// The signs along one parameter alone.
+    fn signs_across(&self, at: [f64; 2], k: usize) -> Signs {
+        let mut signs = Signs::default();
+        for (piece, local) in self.index.around(at, self.range) {
+            let Some(sheet) = self.sheet(piece) else { continue };
+            let (local, ends) = self.ended(at, local);
+            signs.segment(&sheet.jet(local).along(k), ends[k], sheet.position);
         }
         signs
     }

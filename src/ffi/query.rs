@@ -157,17 +157,29 @@ impl Shape<2> for IndexedSurface {
     }
 }
 
+/// One operation on one query point.
+pub(super) trait Ask<S, W, const N: usize>:
+    Fn(&S, [f64; 3], Option<[f64; N]>, &QueryOptions, &mut W, Option<Trace<'_>>) -> FootPoint + Sync
+{
+}
+
+impl<S, W, F, const N: usize> Ask<S, W, N> for F where
+    F: Fn(&S, [f64; 3], Option<[f64; N]>, &QueryOptions, &mut W, Option<Trace<'_>>) -> FootPoint
+        + Sync
+{
+}
+
 /// The checked arguments of one call.
 pub(super) struct Batch<'a, S, const N: usize> {
-    shape: &'a S,
-    points: Strided<'a, 3>,
+    pub(super) shape: &'a S,
+    pub(super) points: Strided<'a, 3>,
     hints: Option<Strided<'a, N>>,
     /// Start and end of each parameter, restricted: where hints are moved to.
     ends: [[f64; 2]; N],
-    options: QueryOptions,
+    pub(super) options: QueryOptions,
     threads: usize,
-    callbacks: Callbacks,
-    out: &'a mut [FootPoint],
+    pub(super) callbacks: Callbacks,
+    pub(super) out: &'a mut [FootPoint],
 }
 
 impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
@@ -203,18 +215,17 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
     }
 
     /// Asks `ask`, one operation on one query point, for every record; `W` is what a thread works with.
-    pub(super) fn run<W: Default>(
-        self,
-        ask: impl Fn(
-            &S,
-            [f64; 3],
-            Option<[f64; N]>,
-            &QueryOptions,
-            &mut W,
-            Option<Trace<'_>>,
-        ) -> FootPoint
-        + Sync,
-    ) -> Result<(), Failure> {
+    pub(super) fn run<W: Default>(mut self, ask: impl Ask<S, W, N>) -> Result<(), Failure> {
+        self.answer(ask)?;
+        let total = self.out.len();
+        if total > 0 {
+            self.callbacks.report(total, total);
+        }
+        Ok(())
+    }
+
+    /// As [`Self::run`], without the last report: more is to be done.
+    pub(super) fn answer<W: Default>(&mut self, ask: impl Ask<S, W, N>) -> Result<(), Failure> {
         let Self { shape, points, hints, ends, options, threads, callbacks, out } = self;
         let total = out.len();
         if total == 0 {
@@ -226,15 +237,13 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
         }
         built?;
         let work = |i: usize, workspace: &mut W| {
-            let hint = hints.and_then(|hints| hint(hints.row(i), ends));
+            let hint = hints.as_ref().and_then(|hints| hint(hints.row(i), *ends));
             let mut told = |step, u, v, residual| callbacks.trace(i, step, [u, v], residual);
             let trace: Option<Trace<'_>> =
                 if callbacks.trace.is_some() { Some(&mut told) } else { None };
-            ask(shape, points.row(i), hint, &options, workspace, trace)
+            ask(shape, points.row(i), hint, options, workspace, trace)
         };
-        batch::run(out, threads, &work, &mut |done| callbacks.poll(done, total))?;
-        callbacks.report(total, total);
-        Ok(())
+        Ok(batch::run(out, *threads, &work, &mut |done| callbacks.poll(done, total))?)
     }
 }
 
@@ -305,7 +314,7 @@ impl Callbacks {
         self.should_stop.is_some_and(|should_stop| unsafe { should_stop(self.user) } != 0)
     }
 
-    fn report(&self, done: usize, total: usize) {
+    pub(super) fn report(&self, done: usize, total: usize) {
         if let Some(progress) = self.progress {
             // SAFETY: as in `poll`.
             unsafe { progress(self.user, done, total) }

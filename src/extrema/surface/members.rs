@@ -3,6 +3,7 @@
 use super::{Candidate, Search, Signs, Source};
 use crate::bounds::{norm, sub};
 use crate::closest::{FootPoint, flag};
+use crate::extrema::Taken;
 use crate::extrema::nature::from_samples;
 use crate::extrema::{flat_limit, kind};
 use crate::set::{Kind, Member, Nature, is_wide, joined, touch};
@@ -19,26 +20,36 @@ impl Search<'_> {
             let wanted = self.candidates.iter().filter(move |c| (c.source == Source::Flat) == flat);
             wanted.copied()
         };
-        let mut flats: Vec<[f64; 4]> = Vec::new();
+        let mut members: Vec<Member> = Vec::new();
+        let mut taken: Vec<Taken> = Vec::new();
         for area in joined(areas(true).map(|c| c.area).collect()) {
-            if !flats.iter().any(|known| self.is_same(known, &area)) {
-                flats.push(area);
+            let member = self.flat_member(area);
+            if !self.is_taken(&taken, &area, &member.foot) {
+                taken.push(Taken::new(&member, area, true));
+                members.push(member);
             }
         }
-        let mut members: Vec<Member> = flats.iter().map(|area| self.flat_member(*area)).collect();
         let mut points: Vec<Candidate> = areas(false).collect();
         points.sort_by_key(|c| c.source);
-        let mut taken = flats;
         for candidate in points {
-            if taken.iter().any(|area| self.is_same(area, &candidate.area)) {
+            let foot = self.foot(candidate.at);
+            if self.is_taken(&taken, &candidate.area, &foot) {
                 continue;
             }
-            if let Some(member) = self.point_member(&candidate) {
+            if let Some(member) = self.point_member(&candidate, foot) {
+                taken.push(Taken::new(&member, candidate.area, false));
                 members.push(member);
-                taken.push(candidate.area);
             }
         }
         members
+    }
+
+    fn is_taken(&self, taken: &[Taken], area: &[f64; 4], foot: &FootPoint) -> bool {
+        let diagonal = self.index.frame.diagonal;
+        taken.iter().any(|known| {
+            known.holds(foot.point, foot.distance, diagonal, self.accuracy)
+                && self.is_same(&known.area, area)
+        })
     }
 
     /// Whether two areas touch, across the seam too.
@@ -55,17 +66,19 @@ impl Search<'_> {
         turns.iter().any(|&i| turns.iter().any(|&j| touch(a, &moved(i, j))))
     }
 
-    fn point_member(&self, candidate: &Candidate) -> Option<Member> {
-        let foot = self.foot(candidate.at);
+    fn point_member(&self, candidate: &Candidate, foot: FootPoint) -> Option<Member> {
         if candidate.source == Source::Collapsed {
             let [u0, u1, v0, v1] = candidate.area;
             let kind = kind([u0 < u1, v0 < v1]);
             let nature = self.collapsed_nature(candidate)?;
             return Some(Member { foot, u: [u0, u1], v: [v0, v1], kind, nature });
         }
-        let signs: Signs = self.signs(candidate.at);
-        if candidate.source == Source::Border && signs.passes() {
-            return None;
+        let mut signs: Signs = self.signs(candidate.at);
+        if signs.passes() {
+            if candidate.source == Source::Border {
+                return None;
+            }
+            signs = self.signs_along(candidate.at, signs.passing());
         }
         let mut nature = signs.nature();
         if nature == Nature::Flat {
@@ -94,21 +107,33 @@ impl Search<'_> {
         ];
         // Along a continuum every place is as good: its start is the canonical one.
         let found = self.flat_place(area);
-        let at = [0, 1].map(|k| if flat[k] { area[2 * k] } else { found[k] });
+        let start = [0, 1].map(|k| if flat[k] { area[2 * k] } else { found[k] });
+        let is_near = (self.distance(start) - self.distance(found)).abs() <= self.accuracy;
+        let at = if is_near { start } else { found };
         let mut foot = self.foot(at);
-        if flat != [false; 2] && foot.flags & flag::COLLAPSED == 0 {
+        let is_collapsed = foot.flags & flag::COLLAPSED != 0;
+        // A collapsed edge is an arc of parameters and one point; a region is a continuum even if it begins there.
+        if flat == [true; 2] || (flat != [false; 2] && !is_collapsed) {
             foot.flags |= flag::CONTINUUM | flag::TIE;
         }
         let interval = |k: usize, x: f64| [area[2 * k].min(x), area[2 * k + 1].max(x)];
         let (u, v) = (interval(0, foot.u), interval(1, foot.v));
-        let across = if flat == [false; 2] { None } else { self.signs(at).nature_across() };
+        // Where a parameter does not move the point, the signs are rounding.
+        let across = match flat {
+            [true, false] if !is_collapsed => self.signs_across(at, 1).nature_across(),
+            [false, true] if !is_collapsed => self.signs_across(at, 0).nature_across(),
+            _ => None,
+        };
         let nature = across.unwrap_or_else(|| self.sampled_nature(at, area));
         Member { foot, u, v, kind: kind(flat), nature }
     }
 
-    /// The place in a flat area where the gradient is least: Newton where the second derivatives allow it.
+    /// The best place in a flat area: nearest of the flat boxes' middles, then Newton where the second derivatives allow it.
     fn flat_place(&self, area: [f64; 4]) -> [f64; 2] {
-        let middle = [0.5 * (area[0] + area[1]), 0.5 * (area[2] + area[3])];
+        let inside = |c: &&Candidate| c.source == Source::Flat && touch(&c.area, &area);
+        let flats = self.candidates.iter().filter(inside).map(|c| c.at);
+        let nearer = |a: &[f64; 2], b: &[f64; 2]| self.distance(*a).total_cmp(&self.distance(*b));
+        let middle = flats.min_by(nearer).unwrap_or([area[0], area[2]]);
         let mut at = middle;
         let pieces = self.index.around(middle, self.range);
         if let Some((sheet, mut local)) =
