@@ -236,6 +236,51 @@ typedef enum fpt_path_change {
 } fpt_path_change;
 
 /**
+ * What the parameters of a member form, for fpt_foot_member.kind.
+ */
+typedef enum fpt_member_kind {
+    /**
+     * One place. The intervals enclose what the tolerance leaves open.
+     */
+    FPT_MEMBER_POINT = 0,
+    /**
+     * An interval of u with v fixed: every u in it gives the point (preimage) or the distance (extrema).
+     */
+    FPT_MEMBER_ARC_U = 1,
+    /**
+     * An interval of v with u fixed.
+     */
+    FPT_MEMBER_ARC_V = 2,
+    /**
+     * Both parameters vary.
+     */
+    FPT_MEMBER_REGION = 3,
+} fpt_member_kind;
+
+/**
+ * What the distance does around a member, for fpt_foot_member.nature. On a border of the domain only points of
+ * the domain count.
+ */
+typedef enum fpt_member_nature {
+    /**
+     * Nothing around is nearer.
+     */
+    FPT_NATURE_MINIMUM = 0,
+    /**
+     * Nothing around is farther.
+     */
+    FPT_NATURE_MAXIMUM = 1,
+    /**
+     * Nearer in some directions, farther in others.
+     */
+    FPT_NATURE_SADDLE = 2,
+    /**
+     * It does not change to second order, and samples around do not tell.
+     */
+    FPT_NATURE_FLAT = 3,
+} fpt_member_nature;
+
+/**
  * A curve. Immutable: any number of threads may use one at a time. The search index is built on first
  * use, by one thread while the others wait. Made by fpt_curve_new, owned by the caller, released by
  * fpt_curve_free.
