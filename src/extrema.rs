@@ -27,6 +27,7 @@ mod curve;
 mod surface;
 
 use crate::bounds::{Vector, norm, sub};
+use crate::closest::FootPoint;
 use crate::set::{FootSet, Kind, Member, Nature};
 
 /// What is asked for. The default is every stationary point.
@@ -110,28 +111,39 @@ enum Source {
     Flat,
 }
 
-/// A place that has become a member.
+/// A candidate that has become a member.
 struct Taken {
-    area: [f64; 4],
+    candidate: Candidate,
     point: Vector,
     distance: f64,
-    is_flat: bool,
 }
 
 /// Points nearer to each other than this share of the diagonal may be one point seen from two pieces.
 const NEAR: f64 = 1e-8;
 
 impl Taken {
-    fn new(member: &Member, area: [f64; 4], is_flat: bool) -> Self {
-        Self { area, point: member.foot.point, distance: member.foot.distance, is_flat }
+    fn new(member: &Member, candidate: Candidate) -> Self {
+        Self { candidate, point: member.foot.point, distance: member.foot.distance }
     }
 
-    /// Whether a place whose area touches this one's is no other: two corners may be near in their parameters only.
-    fn holds(&self, point: Vector, distance: f64, diagonal: f64, accuracy: f64) -> bool {
-        if self.is_flat {
-            return (distance - self.distance).abs() <= 8.0 * accuracy;
+    /// Whether another candidate, whose foot this is, means the same place. `holds(area, at)` tells whether a place lies
+    /// in an area, across seams too.
+    ///
+    /// The box in which a zero is alone may be large: two zeros are one only if each lies in the other's box, and their
+    /// points are near too (corners may be near in their parameters only). A flat area takes in what lies in it.
+    fn is_same(
+        &self,
+        other: &Candidate,
+        foot: &FootPoint,
+        (diagonal, accuracy): (f64, f64),
+        holds: impl Fn(&[f64; 4], [f64; 2]) -> bool,
+    ) -> bool {
+        let within = holds(&self.candidate.area, other.at);
+        if self.candidate.source == Source::Flat {
+            return within && (foot.distance - self.distance).abs() <= 8.0 * accuracy;
         }
-        norm(sub(point, self.point)) <= NEAR * diagonal + accuracy
+        let near = norm(sub(foot.point, self.point)) <= NEAR * diagonal + accuracy;
+        within && near && holds(&other.area, self.candidate.at)
     }
 }
 

@@ -12,6 +12,7 @@ use crate::closest::{FootPoint, flag, rounding_floor};
 use crate::error::Error;
 use crate::index::{CurveIndex, IndexedCurve, position_error, position_steps};
 use crate::jet::{BezierSegment, Jet1};
+use crate::refine::{Method, foot_on_curve};
 use crate::roots::{Found, Zero, zeros_of};
 use crate::set::{FootSet, Kind, Member, Nature, is_wide, joined};
 
@@ -20,6 +21,9 @@ const SAME: f64 = 1e-9;
 
 /// A zero this close to the end of a segment lies on it.
 const ON_END: f64 = 1e-13;
+
+/// Flat intervals whose distances differ by more than this many accuracies are a chain, not a continuum.
+const CHAIN: f64 = 8.0;
 
 /// How far around a flat member the distance is compared with its own, as a share of the range.
 const AROUND: f64 = 0.02;
@@ -216,21 +220,19 @@ impl<'a> Search<'a> {
         self.index.closed && self.range == [first, last]
     }
 
-    /// Whether two intervals touch, across the seam too.
-    fn is_same(&self, a: &[f64; 4], b: &[f64; 4]) -> bool {
-        let turn = if self.is_turning() { self.range[1] - self.range[0] } else { 0.0 };
-        [-turn, 0.0, turn].iter().any(|t| a[0] <= b[1] + t && b[0] + t <= a[1])
-    }
-
     fn members(&self) -> Vec<Member> {
         let of = |flat: bool| {
             self.candidates.iter().filter(move |c| (c.source == Source::Flat) == flat).copied()
         };
         let (mut members, mut taken) = (Vec::new(), Vec::new());
         for area in joined(of(true).map(|c| c.area).collect()) {
-            let member = self.flat_member(area);
-            if !self.is_taken(&taken, &area, &member.foot) {
-                taken.push(Taken::new(&member, area, true));
+            let (u, is_chain) = self.flat_place(area);
+            let at = [u, 0.0];
+            let member = self.flat_member(area, u, is_chain);
+            let candidate = Candidate { at, area, source: Source::Flat };
+            // A small interval on a seam is seen from both ends.
+            if member.kind != Kind::Point || !self.is_taken(&taken, &candidate, &member.foot) {
+                taken.push(Taken::new(&member, candidate));
                 members.push(member);
             }
         }
@@ -238,23 +240,24 @@ impl<'a> Search<'a> {
         points.sort_by_key(|c| c.source);
         for candidate in points {
             let foot = self.foot(candidate.at[0]);
-            if self.is_taken(&taken, &candidate.area, &foot) {
+            if self.is_taken(&taken, &candidate, &foot) {
                 continue;
             }
             if let Some(member) = self.point_member(&candidate, foot) {
-                taken.push(Taken::new(&member, candidate.area, false));
+                taken.push(Taken::new(&member, candidate));
                 members.push(member);
             }
         }
         members
     }
 
-    fn is_taken(&self, taken: &[Taken], area: &[f64; 4], foot: &FootPoint) -> bool {
-        let diagonal = self.index.frame.diagonal;
-        taken.iter().any(|known| {
-            known.holds(foot.point, foot.distance, diagonal, self.accuracy)
-                && self.is_same(&known.area, area)
-        })
+    fn is_taken(&self, taken: &[Taken], candidate: &Candidate, foot: &FootPoint) -> bool {
+        let sizes = (self.index.frame.diagonal, self.accuracy);
+        let turn = if self.is_turning() { self.range[1] - self.range[0] } else { 0.0 };
+        let holds = |area: &[f64; 4], at: [f64; 2]| {
+            [-turn, 0.0, turn].iter().any(|turn| (area[0]..=area[1]).contains(&(at[0] + turn)))
+        };
+        taken.iter().any(|known| known.is_same(candidate, foot, sizes, holds))
     }
 
     fn foot(&self, u: f64) -> FootPoint {
@@ -302,20 +305,49 @@ impl<'a> Search<'a> {
         Some(Member { foot, u: [foot.u; 2], v: [0.0; 2], kind: Kind::Point, nature })
     }
 
-    fn flat_member(&self, area: [f64; 4]) -> Member {
+    /// The best place in a flat interval: nearest of the flat pieces' middles. Intervals that are flat one by one may form a
+    /// chain that is not; then the nearest place by local iteration, and true.
+    fn flat_place(&self, area: [f64; 4]) -> (f64, bool) {
         let inside = |c: &&Candidate| {
             c.source == Source::Flat && c.area[0] <= area[1] && area[0] <= c.area[1]
         };
-        let flats = self.candidates.iter().filter(inside).map(|c| c.at[0]);
-        let nearer = |a: &f64, b: &f64| self.distance(*a).total_cmp(&self.distance(*b));
-        let middle = flats.min_by(nearer).unwrap_or(area[0]);
-        let flat =
-            is_wide([area[0], area[1]], self.range, self.index.segments.iter().map(|s| s.u.ends));
+        let (mut least, mut most, mut u) = (f64::INFINITY, 0.0_f64, area[0]);
+        for candidate in self.candidates.iter().filter(inside) {
+            let distance = self.distance(candidate.at[0]);
+            most = most.max(distance);
+            if distance < least {
+                (least, u) = (distance, candidate.at[0]);
+            }
+        }
+        let is_chain = most - least > CHAIN * self.accuracy;
+        if let (true, Some(&(k, s))) = (is_chain, self.index.around(u, self.range).first()) {
+            let span = self.index.segments[k].u;
+            if let Some(line) = self.line(k) {
+                let low = span.local(area[0]).max(line.range[0]);
+                let high = span.local(area[1]).min(line.range[1]);
+                let curve = (line.net, line.query);
+                let (s, _, _) = foot_on_curve(&curve, s, [low, high], Method::Auto, None);
+                u = self.parameter(&line, s);
+            }
+        }
+        (u, is_chain)
+    }
+
+    fn flat_member(&self, area: [f64; 4], middle: f64, is_chain: bool) -> Member {
+        let flat = !is_chain
+            && is_wide(
+                [area[0], area[1]],
+                self.range,
+                self.index.segments.iter().map(|s| s.u.ends),
+            );
         // Along a continuum every place is as good: its start is the canonical one.
         let is_near = self.distance(area[0]) <= self.distance(middle) + self.accuracy;
         let mut foot = self.foot(if flat && is_near { area[0] } else { middle });
         if flat {
             foot.flags |= flag::CONTINUUM | flag::TIE;
+        }
+        if is_chain {
+            foot.flags |= flag::NOT_PROVEN;
         }
         let u = [area[0].min(foot.u), area[1].max(foot.u)];
         let nature = self.sampled_nature(middle, area);
