@@ -69,7 +69,7 @@ impl ExtremaOptions {
     }
 
     /// Puts the nearest first, and leaves what was asked for.
-    fn finish(&self, mut members: Vec<Member>, undecided: Vec<[f64; 4]>) -> FootSet {
+    pub(crate) fn finish(&self, mut members: Vec<Member>, undecided: Vec<[f64; 4]>) -> FootSet {
         let radius = self.radius();
         members.retain(|member| member.foot.distance.is_nan() || member.foot.distance <= radius);
         if self.minima_only {

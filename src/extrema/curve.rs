@@ -161,8 +161,9 @@ impl<'a> Search<'a> {
         }
         let accuracy = self.accuracy * self.index.frame.scale;
         let cube = view.least_weight().powi(3);
-        let is_flat = |low: f64, high: f64, size: f64| {
-            let variation = 2.0 * size * (high - low) / cube;
+        let is_flat = |low: f64, high: f64, size: f64, is_noise: bool| {
+            let width = if is_noise { high - low } else { 1.0 };
+            let variation = 2.0 * size * width / cube;
             let middle = line.local(0.5 * (low + high));
             variation <= flat_limit(line.reach, accuracy)
                 && variation <= flat_limit(norm(line.jet(middle).d), accuracy)
