@@ -118,6 +118,9 @@ struct Taken {
     distance: f64,
 }
 
+/// Parameters nearer to each other than this share of the range are beside each other.
+const BESIDE: f64 = 1e-7;
+
 /// Points nearer to each other than this share of the diagonal may be one point seen from two pieces.
 const NEAR: f64 = 1e-8;
 
@@ -127,23 +130,24 @@ impl Taken {
     }
 
     /// Whether another candidate, whose foot this is, means the same place. `holds(area, at)` tells whether a place lies
-    /// in an area, across seams too.
+    /// in an area, `beside(at)` whether it is next to the other one; both across seams too.
     ///
     /// The box in which a zero is alone may be large: two zeros are one only if each lies in the other's box, and their
-    /// points are near too (corners may be near in their parameters only). A flat area takes in what lies in it.
+    /// points are near too (corners may be near in their parameters only), or if they are beside each other. A flat area takes in what lies in it.
     fn is_same(
         &self,
         other: &Candidate,
         foot: &FootPoint,
         (diagonal, accuracy): (f64, f64),
         holds: impl Fn(&[f64; 4], [f64; 2]) -> bool,
+        beside: impl Fn([f64; 2]) -> bool,
     ) -> bool {
         let within = holds(&self.candidate.area, other.at);
         if self.candidate.source == Source::Flat {
             return within && (foot.distance - self.distance).abs() <= 8.0 * accuracy;
         }
         let near = norm(sub(foot.point, self.point)) <= NEAR * diagonal + accuracy;
-        within && near && holds(&other.area, self.candidate.at)
+        near && ((within && holds(&other.area, self.candidate.at)) || beside(self.candidate.at))
     }
 }
 

@@ -3,7 +3,7 @@
 use super::gradient::View;
 use super::nature::{Signs, end_of, from_samples};
 use super::{
-    Candidate, ExtremaOptions, LONGEST_POLISH, POLISH_STEPS, Source, Taken, flat_limit,
+    BESIDE, Candidate, ExtremaOptions, LONGEST_POLISH, POLISH_STEPS, Source, Taken, flat_limit,
     is_reachable, kind,
 };
 use crate::bezier::Bidegree;
@@ -24,6 +24,7 @@ const ON_END: f64 = 1e-13;
 
 /// Flat intervals whose distances differ by more than this many accuracies are a chain, not a continuum.
 const CHAIN: f64 = 8.0;
+const CHAIN_SAMPLES: usize = 8;
 
 /// How far around a flat member the distance is compared with its own, as a share of the range.
 const AROUND: f64 = 0.02;
@@ -234,8 +235,7 @@ impl<'a> Search<'a> {
             let at = [u, 0.0];
             let member = self.flat_member(area, u, is_chain);
             let candidate = Candidate { at, area, source: Source::Flat };
-            // A small interval on a seam is seen from both ends.
-            if member.kind != Kind::Point || !self.is_taken(&taken, &candidate, &member.foot) {
+            if !self.goes_on_across(&taken, &area) {
                 taken.push(Taken::new(&member, candidate));
                 members.push(member);
             }
@@ -261,7 +261,19 @@ impl<'a> Search<'a> {
         let holds = |area: &[f64; 4], at: [f64; 2]| {
             [-turn, 0.0, turn].iter().any(|turn| (area[0]..=area[1]).contains(&(at[0] + turn)))
         };
-        taken.iter().any(|known| known.is_same(candidate, foot, sizes, holds))
+        let step = BESIDE * (self.range[1] - self.range[0]);
+        let beside = |at: [f64; 2]| holds(&[at[0] - step, at[0] + step, 0.0, 0.0], candidate.at);
+        taken.iter().any(|known| known.is_same(candidate, foot, sizes, holds, beside))
+    }
+
+    /// Whether an interval goes on in a known flat one on the other side of the seam; then it is part of that, unless it goes
+    /// all the way round.
+    fn goes_on_across(&self, taken: &[Taken], area: &[f64; 4]) -> bool {
+        let [first, last] = self.range;
+        let begins = |known: &Taken| {
+            known.candidate.source == Source::Flat && known.candidate.area[0] == first
+        };
+        self.is_turning() && area[0] > first && area[1] == last && taken.iter().any(begins)
     }
 
     fn foot(&self, u: f64) -> FootPoint {
@@ -297,7 +309,8 @@ impl<'a> Search<'a> {
         let u = candidate.at[0];
         let mut signs = self.signs(u, false);
         if signs.passes() {
-            if candidate.source == Source::Border {
+            // A zero beyond the end of its piece, moved onto it: the neighbour has it, or nobody.
+            if matches!(candidate.source, Source::Border | Source::OnEnd) {
                 return None;
             }
             signs = self.signs(u, true);
@@ -316,11 +329,13 @@ impl<'a> Search<'a> {
             c.source == Source::Flat && c.area[0] <= area[1] && area[0] <= c.area[1]
         };
         let (mut least, mut most, mut u) = (f64::INFINITY, 0.0_f64, area[0]);
-        for candidate in self.candidates.iter().filter(inside) {
-            let distance = self.distance(candidate.at[0]);
+        let middles = self.candidates.iter().filter(inside).map(|c| c.at[0]);
+        let share = |k: usize| area[0] + (area[1] - area[0]) * k as f64 / CHAIN_SAMPLES as f64;
+        for place in middles.chain((0..=CHAIN_SAMPLES).map(share)) {
+            let distance = self.distance(place);
             most = most.max(distance);
             if distance < least {
-                (least, u) = (distance, candidate.at[0]);
+                (least, u) = (distance, place);
             }
         }
         let is_chain = most - least > CHAIN * self.accuracy;

@@ -3,8 +3,8 @@
 use super::{Candidate, Search, Sheet, Signs, Source};
 use crate::bounds::{norm, sub};
 use crate::closest::{FootPoint, flag};
-use crate::extrema::Taken;
 use crate::extrema::nature::from_samples;
+use crate::extrema::{BESIDE, Taken};
 use crate::extrema::{flat_limit, kind};
 use crate::refine::{Method, foot_on_surface};
 use crate::set::{Kind, Member, Nature, is_wide, joined, touch};
@@ -29,8 +29,7 @@ impl Search<'_> {
             let (at, is_chain) = self.flat_place(area);
             let member = self.flat_member(area, at, is_chain);
             let candidate = Candidate { at, area, source: Source::Flat };
-            // A small area on a seam is seen from both ends.
-            if member.kind != Kind::Point || !self.is_taken(&taken, &candidate, &member.foot) {
+            if !self.goes_on_across(&taken, &area) {
                 taken.push(Taken::new(&member, candidate));
                 members.push(member);
             }
@@ -53,7 +52,31 @@ impl Search<'_> {
     fn is_taken(&self, taken: &[Taken], candidate: &Candidate, foot: &FootPoint) -> bool {
         let sizes = (self.index.frame.diagonal, self.accuracy);
         let holds = |area: &[f64; 4], at: [f64; 2]| self.holds(area, at);
-        taken.iter().any(|known| known.is_same(candidate, foot, sizes, holds))
+        let r = self.range;
+        let beside = |at: [f64; 2]| {
+            let [du, dv] = [BESIDE * (r[1] - r[0]), BESIDE * (r[3] - r[2])];
+            self.holds(&[at[0] - du, at[0] + du, at[1] - dv, at[1] + dv], candidate.at)
+        };
+        taken.iter().any(|known| known.is_same(candidate, foot, sizes, holds, beside))
+    }
+
+    /// Whether an area goes on in a known flat one on the other side of a seam; then it is part of that, unless it goes all
+    /// the way round.
+    fn goes_on_across(&self, taken: &[Taken], area: &[f64; 4]) -> bool {
+        let (r, domain) = (self.range, self.shape.surface().domain());
+        (0..2).any(|k| {
+            let ends = [r[2 * k], r[2 * k + 1]];
+            let is_seam = self.index.closed[k] && ends == [domain[2 * k], domain[2 * k + 1]];
+            is_seam
+                && area[2 * k] > ends[0]
+                && area[2 * k + 1] == ends[1]
+                && taken.iter().any(|known| {
+                    let mut moved = known.candidate.area;
+                    moved[2 * k] += ends[1] - ends[0];
+                    moved[2 * k + 1] += ends[1] - ends[0];
+                    touch(&moved, area)
+                })
+        })
     }
 
     /// Whether a place lies in an area, across the seam too.
@@ -77,7 +100,8 @@ impl Search<'_> {
         }
         let mut signs: Signs = self.signs(candidate.at);
         if signs.passes() {
-            if candidate.source == Source::Border {
+            // A zero beyond the end of its piece, moved onto it: the neighbour has it, or nobody.
+            if matches!(candidate.source, Source::Border | Source::OnEnd) {
                 return None;
             }
             signs = self.signs_along(candidate.at, signs.passing());
