@@ -133,7 +133,8 @@ impl Taken {
     /// in an area, `beside(at)` whether it is next to the other one; both across seams too.
     ///
     /// The box in which a zero is alone may be large: two zeros are one only if each lies in the other's box, and their
-    /// points are near too (corners may be near in their parameters only), or if they are beside each other. A flat area takes in what lies in it.
+    /// points are near too (corners may be near in their parameters only), or if they
+    /// were found alike and are beside each other. A flat area takes in what lies in it.
     fn is_same(
         &self,
         other: &Candidate,
@@ -147,7 +148,12 @@ impl Taken {
             return within && (foot.distance - self.distance).abs() <= 8.0 * accuracy;
         }
         let near = norm(sub(foot.point, self.point)) <= NEAR * diagonal + accuracy;
-        near && ((within && holds(&other.area, self.candidate.at)) || beside(self.candidate.at))
+        let zero = |source: Source| matches!(source, Source::Inside | Source::OnEnd);
+        let (a, b) = (self.candidate.source, other.source);
+        let level = (foot.distance - self.distance).abs() <= 2.0 * accuracy;
+        let twins = level && ((zero(a) && zero(b)) || a == b);
+        near && ((within && holds(&other.area, self.candidate.at))
+            || (twins && beside(self.candidate.at)))
     }
 }
 
