@@ -26,6 +26,8 @@ mod collapsed;
 
 mod patch;
 
+mod ties;
+
 mod local;
 
 mod curve;
@@ -144,6 +146,7 @@ pub use crate::refine::Trace;
 pub struct Workspace {
     queue: Queue,
     deferred: Vec<(f64, usize)>,
+    loose: Vec<(f64, usize)>,
     start: Vec<f64>,
     line: line::LineMemory,
     patch: patch::PatchMemory,
@@ -198,12 +201,9 @@ fn certify(foot: &mut FootPoint, proof: &Proof, frame: &Frame, allowed: f64) {
         foot.flags |= flag::BUDGET;
     }
     let gap = foot.distance - foot.lower_bound;
-    foot.flags &= !(flag::NOT_PROVEN | flag::TIE);
+    foot.flags &= !flag::NOT_PROVEN;
     if gap.is_nan() || gap > allowed {
         foot.flags |= flag::NOT_PROVEN;
-    }
-    if proof.is_tied() {
-        foot.flags |= flag::TIE;
     }
 }
 

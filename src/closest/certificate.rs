@@ -4,7 +4,7 @@
 
 use super::proof::Proof;
 use crate::bezier::{Bidegree, convolve_square, scale_down_2d, scale_up_2d};
-use crate::bounds::{HALF_ULP, Vector, dot, norm};
+use crate::bounds::{HALF_ULP, Vector, dot, norm, sub};
 
 /// Rounding of the coefficients of `N = |r|^2` relative to those of `C = W^2`, as a squared length.
 ///
@@ -38,21 +38,46 @@ pub fn subtract_query(net: &mut [f64], count: usize, query: Vector) -> f64 {
 /// Whether a plane at the proof's target from the query has all of a net on its other side. `net` holds `r` and `W`.
 ///
 /// Two normals are tried: that to the best foot, and that of the summed net. The linear form has no squares, so it
-/// works down to rounding; on the convex side of a shape it closes whole pieces at once.
+/// works down to rounding; on the convex side of a shape it closes whole pieces at once. What lies behind the first plane
+/// ties nowhere but around the best foot; the second one stands at the reach of ties.
 pub fn plane_separates(net: &[f64], count: usize, proof: &Proof, position: f64) -> bool {
-    let least = (proof.target + 2.0 * position) * (1.0 + 32.0 * HALF_ULP);
+    let least = |level: f64| (level + 2.0 * position) * (1.0 + 32.0 * HALF_ULP);
     let (xyz, w) = net.split_at(3 * count);
-    let beyond = |n: Vector| {
+    let beyond = |n: Vector, least: f64| {
         (0..count).all(|k| {
             n[0] * xyz[k] + n[1] * xyz[count + k] + n[2] * xyz[2 * count + k] > least * w[k]
         })
     };
-    if beyond(proof.direction) {
+    if beyond(proof.direction, least(proof.target)) {
         return true;
     }
     let n = [0, 1, 2].map(|c| xyz[c * count..(c + 1) * count].iter().sum::<f64>());
     let size = norm(n);
-    size > 0.0 && size.is_finite() && beyond(n.map(|x| x / size))
+    size > 0.0 && size.is_finite() && beyond(n.map(|x| x / size), least(proof.reach()))
+}
+
+/// How a net (`r` and `W`) lies to what counts as one foot.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Nearness {
+    /// All of it is so near to the best foot that nothing in it counts as another one.
+    pub around_foot: bool,
+    /// It is so small that it holds one foot at most.
+    pub small: bool,
+}
+
+/// See [`Nearness`].
+pub fn nearness(net: &[f64], count: usize, proof: &Proof) -> Nearness {
+    let home = proof.direction.map(|x| x * proof.best);
+    let (xyz, w) = net.split_at(3 * count);
+    let pole = |k: usize| [0, 1, 2].map(|c| xyz[c * count + k] / w[k]);
+    let (first, apart) = (pole(0), proof.apart_squared());
+    let within = |from: Vector, most: f64| {
+        (0..count).map(pole).all(|x| {
+            let move_ = sub(x, from);
+            dot(move_, move_) <= most
+        })
+    };
+    Nearness { around_foot: within(home, apart), small: within(first, apart / 64.0) }
 }
 
 /// As [`plane_separates`] with the normal to the best foot, for poles `X` (and `W` when rational).

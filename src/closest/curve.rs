@@ -1,9 +1,13 @@
 //! Nearest point of a curve.
 
+mod ties;
+
+pub use ties::{neighbour, shortest, wrapped};
+
 use super::certificate::squared_error;
 use super::line::{Given, Line, LineMemory, search_line};
 use super::local::{LOCAL_FLAGS, WholeCurve, curve_start};
-use super::proof::{Proof, Site, Watch};
+use super::proof::{Proof, Site, Watch, note_loose};
 use super::{
     CONTINUUM_STEPS, FootPoint, MOST_GRAIN, QueryOptions, Scope, Workspace, certify,
     default_budget, distance, far_foot, flag, is_bad, mark_inversion, rounding_floor, tree_limit,
@@ -114,7 +118,9 @@ impl IndexedCurve {
         } else {
             default_budget(2 * index.degree() + 1)
         };
-        let search = CurveSearch { index, query: q, range: self.range(options), options, steps };
+        let whole = WholeCurve { curve: self.curve(), query };
+        let range = self.range(options);
+        let search = CurveSearch { index, whole, query: q, range, options, steps };
         let mut tell = |step: u32, site: Site, d: f64| {
             if let Some(trace) = &mut trace {
                 trace(step, search.parameter(site), 0.0, d / index.frame.scale);
@@ -141,6 +147,9 @@ impl IndexedCurve {
         }
         if proof.flat.is_some() && search.is_continuum(site, &proof) {
             foot.flags |= flag::CONTINUUM | flag::TIE;
+        } else {
+            foot.flags |= search.ties(workspace, &mut proof);
+            foot.iterations = proof.evaluations;
         }
         if hint.is_some() {
             foot.flags |= flag::HINT_USED;
@@ -233,6 +242,8 @@ impl IndexedCurve {
 /// One global search on a curve.
 struct CurveSearch<'a> {
     index: &'a CurveIndex,
+    /// The curve and the query as the caller has them.
+    whole: WholeCurve<'a>,
     query: Vector,
     range: [f64; 2],
     options: &'a QueryOptions,
@@ -260,8 +271,7 @@ impl CurveSearch<'_> {
             && [-1.0, 1.0].into_iter().any(|side| {
                 CONTINUUM_STEPS.into_iter().all(|step| {
                     let s = site.at[0] + side * step;
-                    let near = norm(view.0.jet(s.clamp(0.0, 1.0), view.1).d)
-                        <= proof.best + proof.window();
+                    let near = norm(view.0.jet(s.clamp(0.0, 1.0), view.1).d) <= proof.level();
                     (range[0]..=range[1]).contains(&s) && near
                 })
             })
@@ -305,6 +315,7 @@ impl CurveSearch<'_> {
     fn walk(&self, workspace: &mut Workspace, proof: &mut Proof) {
         let slack = tree_slack(self.query);
         self.index.tree.start(&mut workspace.queue);
+        workspace.loose.clear();
         while let Some(next) = workspace.queue.pop() {
             let limit = tree_limit(proof, slack);
             if proof.is_trivial() || next.key > limit {
@@ -312,7 +323,10 @@ impl CurveSearch<'_> {
             }
             match next.piece() {
                 None => self.index.tree.open(next, self.query, limit, &mut workspace.queue),
-                Some(k) => self.search(k, &mut workspace.line, proof),
+                Some(k) => {
+                    self.search(k, &mut workspace.line, proof);
+                    note_loose(k, &mut workspace.loose, proof);
+                }
             }
         }
     }

@@ -4,18 +4,19 @@
 //! At a collapsed side the derivative along it vanishes for every shape: the collapsed point is looked at once,
 //! and off that side the sign of the derivative of the distance itself is used (see [`Walk::turning`]).
 
+mod sides;
+
 use super::certificate::{
-    foot_plane_separates, free_slope, plane_separates, slope_error, square, squared_error,
-    subtract_query, underflows, value_at,
+    foot_plane_separates, free_slope, nearness, plane_separates, slope_error, square,
+    squared_error, subtract_query, underflows, value_at,
 };
-use super::collapsed::{along, rational_slope_extent, slope_extent};
 use super::differences::{Slopes, convexity};
-use super::line::{Given, Line, LineMemory, search_line};
+use super::line::LineMemory;
 use super::proof::{Proof, Site};
-use crate::bezier::{Bidegree, cut_2d, halve_s, halve_t, isocurve};
+use crate::bezier::{Bidegree, cut_2d, halve_s, halve_t};
 use crate::bounds::{HALF_ULP, Vector, dot, extent, least, norm};
-use crate::index::{Patch, product_steps, side};
-use crate::jet::{BezierPatch, BezierSegment, Jet2};
+use crate::index::{Patch, product_steps};
+use crate::jet::{BezierPatch, Jet2};
 use crate::knots::MAX_DEGREE;
 use crate::refine::{Method, foot_on_surface};
 
@@ -55,6 +56,8 @@ struct Area {
     error: f64,
     radius: f64,
     age: u32,
+    /// In a walk for ties: whether it holds one foot at most.
+    small: bool,
 }
 
 /// Memory of the search on patches.
@@ -125,7 +128,7 @@ impl Walk<'_, '_, '_> {
         }
         self.memory.waiting.push(first);
         while let Some(mut area) = self.memory.waiting.pop() {
-            if self.proof.is_trivial() {
+            if self.proof.is_trivial() || self.proof.has_news() {
                 return true;
             }
             if self.proof.spent - start > self.sheet.patience {
@@ -162,27 +165,6 @@ impl Walk<'_, '_, '_> {
             }
             _ => self.load(first, 0),
         }
-    }
-
-    /// The collapsed points are candidates of their own.
-    fn look_at_collapsed_sides(&mut self) {
-        let corner: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [0.0, 0.0], [0.0, 1.0]];
-        for k in 0..4 {
-            let inner = self.sheet.range[k] == [0.0, 1.0, 0.0, 1.0][k];
-            if self.sheet.patch.collapsed[k] && inner {
-                let at = [0, 1].map(|c| {
-                    corner[k][c].clamp(self.sheet.range[2 * c], self.sheet.range[2 * c + 1])
-                });
-                self.look_at(at);
-            }
-        }
-    }
-
-    fn look_at(&mut self, at: [f64; 2]) -> Jet2 {
-        let jet = self.sheet.net.jet(at[0], at[1], self.sheet.query);
-        self.proof.evaluations += 1;
-        self.proof.offer(Site { piece: self.sheet.piece, at }, jet.d, || None);
-        jet
     }
 
     /// Slot 0 from the tensors: `N = A - 2 p.B + |p|^2 C`.
@@ -238,14 +220,13 @@ impl Walk<'_, '_, '_> {
         }
     }
 
-    /// Whether nothing in the area is nearer than the target; a foot that ties is looked for on the way.
+    /// Whether nothing in the area is nearer than the target (in a walk for ties: than their reach).
     fn is_beyond(&mut self, area: &Area, at: usize) -> bool {
-        if !self.all_beyond(at, self.proof.target_squared + area.error) {
+        if !self.all_beyond(at, self.proof.level_squared() + area.error) {
             return false;
         }
-        if !self.all_beyond(at, self.proof.tie_squared()) && self.proof.seeks_rivals() {
-            let start = self.start(area, self.least_ratio(at).1);
-            self.iterate([area.s[0], area.s[1], area.t[0], area.t[1]], start);
+        if !self.proof.tying && !self.all_beyond(at, self.proof.tie_squared() + area.error) {
+            self.proof.loosen(self.proof.target);
         }
         true
     }
@@ -283,7 +264,8 @@ impl Walk<'_, '_, '_> {
             return Verdict::GiveUp;
         }
         let (mut bound, mut place) = self.least_ratio(at);
-        if area.age >= FRESH || (bound > self.proof.target_squared && area.age > 0) {
+        let close = bound > self.proof.level_squared() && area.age > 0;
+        if area.age >= FRESH || close || self.proof.tying {
             if self.load(area, at) || self.is_beyond(area, at) {
                 return Verdict::Closed;
             }
@@ -299,6 +281,12 @@ impl Walk<'_, '_, '_> {
             }
         }
         if self.turning(area, at, weight) || self.convex(area, at, place, weight) {
+            return Verdict::Closed;
+        }
+        if area.small {
+            // What no test can tell here is below rounding.
+            let start = self.start(area, place);
+            self.iterate([area.s[0], area.s[1], area.t[0], area.t[1]], start);
             return Verdict::Closed;
         }
         self.probe(area, place);
@@ -323,87 +311,17 @@ impl Walk<'_, '_, '_> {
 
     /// First differences of `h` over every squared distance that a nearest point in this area can have.
     fn slopes(&mut self, area: &Area, at: usize, bound: f64) -> Slopes {
-        let reach = self.proof.best + self.proof.gap;
-        self.form(at, 0, (bound - area.error).max(0.0));
+        let [first, last] = self.proof.counted(bound - area.error);
+        self.form(at, 0, first);
         let parts = if self.sheet.net.rational { 2 } else { 1 };
         if parts == 2 {
-            self.form(at, 1, reach * reach);
+            self.form(at, 1, last);
         }
         let mut slopes = Slopes::NONE;
         for h in self.memory.h[..parts * self.count].chunks_exact(self.count) {
             slopes.include(h, self.degree);
         }
         slopes
-    }
-
-    /// Goes on along side `k` of the area, if that can hold the nearest point at all.
-    fn follow_side(&mut self, area: &Area, at: usize, k: usize) {
-        let ends = [area.s[0], area.s[1], area.t[0], area.t[1]];
-        let outer = ends[k] == self.sheet.range[k];
-        let collapsed = self.sheet.patch.collapsed[k] && ends[k] == [0.0, 1.0, 0.0, 1.0][k];
-        if !outer || !self.sheet.border[k] || collapsed {
-            return;
-        }
-        let along_s = k == side::T0 || k == side::T1;
-        let (range, first) = if along_s { (area.s, side::S0) } else { (area.t, side::T0) };
-        let border =
-            [0, 1].map(|e| self.sheet.border[first + e] && range[e] == self.sheet.range[first + e]);
-        let mut memory = std::mem::take(&mut self.memory.edge);
-        let p = self.edge_net(k, ends[k], &mut memory);
-        let components = if self.sheet.net.rational { 4 } else { 3 };
-        let (net, product) = memory.split_at_mut(4 * (MAX_DEGREE + 1));
-        let (n, c) = product.split_at_mut(2 * MAX_DEGREE + 1);
-        let (n, c) = (&mut n[..=2 * p], &mut c[..=2 * p]);
-        let rational = self.sheet.net.rational;
-        for i in 0..=2 * p {
-            let place = self.place_on_side(k, i);
-            n[i] = self.n(at)[place];
-            if rational {
-                c[i] = self.c(at)[place];
-            }
-        }
-        let (piece, fixed) = (self.sheet.piece, ends[k]);
-        let site = |x: f64| Site { piece, at: if along_s { [x, fixed] } else { [fixed, x] } };
-        let line = Line {
-            segment: BezierSegment { degree: p, rational, poles: &net[..components * (p + 1)] },
-            query: self.sheet.query,
-            position: self.sheet.position,
-            range,
-            border,
-            site: &site,
-            method: self.sheet.method,
-        };
-        let c = if rational { &c[..] } else { &[] };
-        let given = Given { n, c, error: area.error, radius: area.radius };
-        search_line(&line, Some(given), &mut self.memory.line, self.proof);
-        self.memory.edge = memory;
-    }
-
-    /// Index of product coefficient `i` along side `k`.
-    fn place_on_side(&self, k: usize, i: usize) -> usize {
-        let width = self.degree.t + 1;
-        match k {
-            side::S0 => i,
-            side::S1 => self.degree.s * width + i,
-            side::T0 => i * width,
-            _ => i * width + self.degree.t,
-        }
-    }
-
-    /// The poles of the isocurve on side `k` at parameter `x`, into `out`; returns its degree.
-    fn edge_net(&mut self, k: usize, x: f64, out: &mut [f64]) -> usize {
-        let degree = self.sheet.net.degree;
-        let (rows, columns) = (degree.s + 1, degree.t + 1);
-        let across_s = k == side::S0 || k == side::S1;
-        let size = if across_s { columns } else { rows };
-        for (component, edge) in
-            self.sheet.net.poles.chunks_exact(rows * columns).zip(out.chunks_exact_mut(size))
-        {
-            let work = &mut self.memory.net[..rows * columns];
-            work.copy_from_slice(component);
-            isocurve(work, degree, across_s, x, edge);
-        }
-        size - 1
     }
 
     /// The Greville abscissae of coefficient `place`.
@@ -431,7 +349,7 @@ impl Walk<'_, '_, '_> {
         let at = self.abscissa(area, place);
         let jet = self.sheet.net.jet(at[0], at[1], self.sheet.query);
         self.proof.evaluations += 1;
-        if norm(jet.d) < self.proof.target {
+        if self.proof.attracts(jet.d) {
             self.iterate(self.sheet.range, at);
         }
     }
@@ -455,34 +373,47 @@ impl Walk<'_, '_, '_> {
         }
         let (at, jet, taken) = found;
         self.proof.evaluations += taken;
-        let inner = |k: usize| {
-            let [low, high] = [range[2 * k], range[2 * k + 1]];
-            (at[k] > low || low == self.sheet.range[2 * k])
-                && (at[k] < high || high == self.sheet.range[2 * k + 1])
-        };
-        if inner(0) && inner(1) {
-            self.proof.rival(jet.d);
-        }
         self.proof.offer(Site { piece, at }, jet.d, || jet.flat_direction());
+        self.proof.rival(Site { piece, at }, jet.d);
         (at, jet)
     }
 
-    /// Whether convexity and the first-order conditions at the iteration's result prove the target.
+    /// Whether convexity and the first-order conditions at the iteration's result prove the target; in a walk for ties,
+    /// whether convexity proves that there is one foot only.
     fn convex(&mut self, area: &Area, at: usize, place: usize, weight: f64) -> bool {
-        if self.curvature(area, at, weight).is_none() {
+        let tying = self.proof.tying;
+        let mu = self.proof.level_squared();
+        if self.curvature(area, at, weight, mu).is_none()
+            || (tying && !self.has_one_foot(area, at, weight))
+        {
             return false;
         }
         let start = self.start(area, place);
         let (found, jet) = self.iterate([area.s[0], area.s[1], area.t[0], area.t[1]], start);
-        match self.curvature(area, at, weight) {
+        if tying {
+            return true;
+        }
+        let proven = match self.curvature(area, at, weight, self.proof.target_squared) {
             Some(m) => self.first_order(area, found, &jet, m),
             None => false,
+        };
+        if proven && self.sheet.net.rational && !self.has_one_foot(area, at, weight) {
+            self.proof.loosen(self.proof.target);
         }
+        proven
     }
 
-    /// Bounds of the second derivatives of `h` at the target (see [`convexity`]).
-    fn curvature(&mut self, area: &Area, at: usize, weight: f64) -> Option<[f64; 3]> {
-        self.form(at, 0, self.proof.target_squared);
+    /// Whether `h` is convex for every squared distance of a foot that counts (it is linear in that): then all feet
+    /// are least points of the area, and there is one.
+    fn has_one_foot(&mut self, area: &Area, at: usize, weight: f64) -> bool {
+        let target = self.proof.target;
+        let ends = self.proof.counted(target * target);
+        ends.into_iter().all(|mu| self.curvature(area, at, weight, mu).is_some())
+    }
+
+    /// Bounds of the second derivatives of `h` for the squared distance `mu` (see [`convexity`]).
+    fn curvature(&mut self, area: &Area, at: usize, weight: f64, mu: f64) -> Option<[f64; 3]> {
+        self.form(at, 0, mu);
         convexity(&self.memory.h[..self.count], self.degree, 4.0 * area.error * weight)
     }
 
@@ -505,48 +436,6 @@ impl Walk<'_, '_, '_> {
         value > 0.0 && loss <= 2.0 * value * (1.0 - 1e-10)
     }
 
-    /// At a collapsed side: whether the distance changes strictly along the side everywhere off it (see
-    /// `collapsed`). Then only the collapsed point or a border can be nearest.
-    fn turning(&mut self, area: &Area, at: usize, weight: f64) -> bool {
-        let ends = [area.s[0], area.s[1], area.t[0], area.t[1]];
-        let touched =
-            (0..4).find(|&k| self.sheet.patch.collapsed[k] && ends[k] == [0.0, 1.0, 0.0, 1.0][k]);
-        let Some(k) = touched else { return false };
-        let ((low, high), allowance) = self.turning_extent(area, at, k, weight);
-        if low > allowance || high < -allowance {
-            self.follow_side(area, at, 2 * along(k) + usize::from(high < 0.0));
-            return true;
-        }
-        false
-    }
-
-    /// Extent of the slope along side `k` off that side, and its rounding.
-    fn turning_extent(
-        &mut self,
-        area: &Area,
-        at: usize,
-        k: usize,
-        weight: f64,
-    ) -> ((f64, f64), f64) {
-        let mut memory = std::mem::take(&mut self.memory.turning);
-        let n_degree = [self.degree.s, self.degree.t][along(k)] as f64;
-        let found = if self.sheet.net.rational {
-            let net = self.sheet.net.degree;
-            let w = &mut self.memory.weights;
-            w.clear();
-            w.extend_from_slice(&self.sheet.net.poles[3 * net.count()..]);
-            cut_2d(w, net, area.s, area.t);
-            let n = &self.memory.coefficients[at * self.slot..at * self.slot + self.count];
-            let found = rational_slope_extent(n, w, net, k, &mut memory);
-            let size = product_steps(2 * net.count()) * area.radius * area.radius;
-            (found, 8.0 * n_degree * extent(w).1 * weight * (area.error + size))
-        } else {
-            (slope_extent(self.n(at), self.degree, k, &mut memory), 2.0 * n_degree * area.error)
-        };
-        self.memory.turning = memory;
-        found
-    }
-
     /// Rebuilds the coefficients of slot `at` from the poles; true when a plane already separates the query.
     fn load(&mut self, area: &mut Area, at: usize) -> bool {
         let degree = self.sheet.net.degree;
@@ -563,6 +452,13 @@ impl Walk<'_, '_, '_> {
             && plane_separates(net, count, self.proof, self.sheet.position)
         {
             return true;
+        }
+        if self.proof.tying {
+            let near = nearness(net, count, self.proof);
+            area.small = near.small;
+            if near.around_foot {
+                return true;
+            }
         }
         square(net, degree, &mut self.memory.coefficients[at * self.slot..(at + 1) * self.slot]);
         self.set_error(area, at, radius, 3 * count);
