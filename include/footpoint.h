@@ -9,7 +9,8 @@
  * Failure   A function that can fail returns an fpt_status: FPT_OK (0) or a number of fpt_status_code.
  *           fpt_last_error() has the text of the calling thread's last failure; it names the parameter
  *           and the index. Outputs are written only when FPT_OK is returned (exceptions: FPT_CANCELLED
- *           and FPT_INTERNAL in _closest and _invert). Arguments are checked before work begins. The
+ *           and FPT_INTERNAL in _closest and _invert; sets that FPT_BUDGET_EXHAUSTED leaves incomplete
+ *           are handed over too). Arguments are checked before work begins. The
  *           library never prints, exits, throws or aborts over bad input; a defect of the library itself
  *           returns FPT_INTERNAL, and handles stay valid.
  * Pointers  A pointer must not be NULL unless its description says so: NULL is FPT_NULL_ARGUMENT. Arrays

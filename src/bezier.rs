@@ -13,21 +13,24 @@
 //!
 //! References: Borden et al., *Isogeometric finite element data structures based on Bezier extraction*, 2011
 //! (the matrix); Farouki, Rajan, *Algorithms for polynomials in Bernstein form*, 1988 (products).
-//! Limit: degrees up to 31; products of two such factors have 63 coefficients a direction.
+//! Limit: degrees up to 31; products of two such factors have 63 coefficients a direction, of three 94.
 
 use crate::knots::{Knots, MAX_DEGREE};
 
 /// Most coefficients of a product of two factors in one direction.
 pub const MAX_PRODUCT: usize = 2 * MAX_DEGREE + 1;
 
-/// Binomial coefficients `C(n, k)` for `n <= 62`, as doubles (each within one rounding of the integer).
-static BINOMIAL: [[f64; MAX_PRODUCT]; MAX_PRODUCT] = binomials();
+/// Most coefficients of a product of three factors in one direction.
+pub const MAX_TRIPLE: usize = 3 * MAX_DEGREE + 1;
 
-const fn binomials() -> [[f64; MAX_PRODUCT]; MAX_PRODUCT] {
-    let mut table = [[0.0; MAX_PRODUCT]; MAX_PRODUCT];
-    let mut exact = [[0u64; MAX_PRODUCT]; MAX_PRODUCT];
+/// Binomial coefficients `C(n, k)` for `n <= 93`, as doubles (each within one rounding of the integer).
+static BINOMIAL: [[f64; MAX_TRIPLE]; MAX_TRIPLE] = binomials();
+
+const fn binomials() -> [[f64; MAX_TRIPLE]; MAX_TRIPLE] {
+    let mut table = [[0.0; MAX_TRIPLE]; MAX_TRIPLE];
+    let mut exact = [[0u128; MAX_TRIPLE]; MAX_TRIPLE];
     let mut n = 0;
-    while n < MAX_PRODUCT {
+    while n < MAX_TRIPLE {
         exact[n][0] = 1;
         table[n][0] = 1.0;
         let mut k = 1;
@@ -184,6 +187,11 @@ impl Bidegree {
     pub fn times(self, other: Self) -> Self {
         Self { s: self.s + other.s, t: self.t + other.t }
     }
+
+    /// One less in direction 0 (s) or 1 (t): the bidegree of a derivative.
+    pub fn lowered(self, direction: usize) -> Self {
+        if direction == 0 { Self { s: self.s - 1, ..self } } else { Self { t: self.t - 1, ..self } }
+    }
 }
 
 /// Multiplies both directions of a coefficient array by their binomials (see [`scale_up`]).
@@ -305,6 +313,55 @@ pub fn halve_t(low: &mut [f64], high: &mut [f64], degree: Bidegree) {
     }
 }
 
+/// Appends the coefficients of the derivative in direction 0 (s) or 1 (t) to `out`.
+pub fn derivative(f: &[f64], degree: Bidegree, direction: usize, out: &mut Vec<f64>) {
+    let width = degree.t + 1;
+    if direction == 0 {
+        out.extend(f.iter().zip(&f[width..]).map(|(a, b)| degree.s as f64 * (b - a)));
+        return;
+    }
+    for row in f.chunks_exact(width) {
+        out.extend(row.windows(2).map(|pair| degree.t as f64 * (pair[1] - pair[0])));
+    }
+}
+
+/// The same polynomial with the degree one higher in direction 0 (s) or 1 (t).
+pub fn elevated(f: &[f64], degree: Bidegree, direction: usize) -> Vec<f64> {
+    let (rows, width) = (degree.s + 1, degree.t + 1);
+    let mix = |n: usize, k: usize, before: f64, here: f64| {
+        let share = k as f64 / n as f64;
+        share * before + (n - k) as f64 / n as f64 * here
+    };
+    if direction == 0 {
+        let at = |i: usize, j: usize| if i < rows { f[i * width + j] } else { 0.0 };
+        let entry = |i: usize, j: usize| mix(rows, i, at(i.max(1) - 1, j), at(i, j));
+        return (0..(rows + 1) * width).map(|k| entry(k / width, k % width)).collect();
+    }
+    let at = |i: usize, j: usize| if j < width { f[i * width + j] } else { 0.0 };
+    let entry = |i: usize, j: usize| mix(width, j, at(i, j.max(1) - 1), at(i, j));
+    (0..rows * (width + 1)).map(|k| entry(k / (width + 1), k % (width + 1))).collect()
+}
+
+/// `f / x` where x is s, 1 - s, t or 1 - t (`side` as in `index::side`): the coefficients on that side vanish and are
+/// left out. Errors of coefficients grow by the degree at most.
+pub fn divided_by_side(f: &[f64], degree: Bidegree, side: usize) -> Vec<f64> {
+    let (rows, width) = (degree.s + 1, degree.t + 1);
+    let (n, along_s) = if side < 2 { (degree.s, true) } else { (degree.t, false) };
+    let factor = |k: usize| n as f64 / if side % 2 == 0 { k as f64 } else { (n - k) as f64 };
+    let left_out = if side % 2 == 0 { 0 } else { n };
+    let keep = |k: usize| k != left_out;
+    let mut out = Vec::with_capacity(f.len());
+    for i in 0..rows {
+        for j in 0..width {
+            let k = if along_s { i } else { j };
+            if keep(k) {
+                out.push(f[i * width + j] * factor(k));
+            }
+        }
+    }
+    out
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -377,6 +434,34 @@ mod tests {
                 assert!((first - mid.1[i]).abs() < 1e-7, "p {p} i {i}");
                 assert!((second - mid.2[i]).abs() < 2e-4, "p {p} i {i}");
             }
+        }
+    }
+
+    #[test]
+    fn elevation_keeps_the_polynomial_and_division_undoes_a_factor() {
+        let degree = Bidegree { s: 2, t: 1 };
+        let f = [1.0, -2.0, 0.5, 3.0, 0.25, 4.0];
+        let eval = |c: &[f64], d: Bidegree, s: f64, t: f64| {
+            let rows: Vec<f64> = c.chunks(d.t + 1).map(|row| bernstein(row, t)).collect();
+            bernstein(&rows, s)
+        };
+        for (s, t) in [(0.2, 0.9), (0.7, 0.4)] {
+            for (direction, high) in [(0, Bidegree { s: 3, t: 1 }), (1, Bidegree { s: 2, t: 2 })] {
+                let g = elevated(&f, degree, direction);
+                assert!((eval(&g, high, s, t) - eval(&f, degree, s, t)).abs() < 1e-14);
+            }
+        }
+        // s times f, t times f and so on, each divided again.
+        for side in 0..4 {
+            let high = if side < 2 { Bidegree { s: 3, t: 1 } } else { Bidegree { s: 2, t: 2 } };
+            let x: [f64; 2] = if side % 2 == 0 { [0.0, 1.0] } else { [1.0, 0.0] };
+            let one = if side < 2 { Bidegree { s: 1, t: 0 } } else { Bidegree { s: 0, t: 1 } };
+            let (mut a, mut product) = (f.to_vec(), vec![0.0; high.count()]);
+            scale_up_2d(&mut a, degree);
+            convolve(&a, degree, &x, one, 1.0, &mut product);
+            scale_down_2d(&mut product, high);
+            let back = divided_by_side(&product, high, side);
+            assert!(back.iter().zip(&f).all(|(a, b)| (a - b).abs() < 1e-14), "{side} {back:?}");
         }
     }
 

@@ -40,6 +40,10 @@ use crate::refine::Method;
 use crate::tree::Queue;
 use proof::Proof;
 
+pub(crate) use certificate::{free_slope, slope_error, squared_error, subtract_query};
+pub(crate) use differences::{Slopes, convexity};
+pub(crate) use surface::local_interval;
+
 /// Bits of [`FootPoint::flags`].
 pub mod flag {
     /// `distance - lower_bound` exceeds both the accuracy and the rounding floor.
@@ -150,6 +154,13 @@ pub struct Workspace {
     start: Vec<f64>,
     line: line::LineMemory,
     patch: patch::PatchMemory,
+}
+
+impl Workspace {
+    /// The queue of the tree walk.
+    pub(crate) fn queue(&mut self) -> &mut Queue {
+        &mut self.queue
+    }
 }
 
 /// Boxes a query may look at by default: 2,500 for small pieces, fewer where a box costs more.

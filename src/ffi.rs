@@ -7,7 +7,7 @@
 //! ```text
 //!   C call -> guard -> arguments (pointers, counts, strides)   memory.rs, limits.rs
 //!                   -> options, records (struct layouts)       options.rs, records.rs
-//!                   -> Curve, Surface, closest, batch          curve.rs, surface.rs, query.rs
+//!                   -> Curve, Surface, closest, batch          curve.rs, surface.rs, query.rs, sets.rs
 //!          <- fpt_status, text of a failure for fpt_last_error
 //! ```
 //!
@@ -25,6 +25,7 @@ mod records;
 mod curve;
 mod surface;
 mod query;
+mod sets;
 #[cfg(test)]
 mod tests;
 
@@ -66,6 +67,8 @@ use fpt_status_code::*;
 enum Failure {
     Null(&'static str),
     Refused(Error),
+    /// A set that was handed over without being complete.
+    Budget(String),
     Internal(String),
 }
 
@@ -87,6 +90,7 @@ impl Failure {
             Self::Refused(Error::Unsupported(_)) => FPT_UNSUPPORTED,
             Self::Refused(Error::OutOfMemory) => FPT_OUT_OF_MEMORY,
             Self::Refused(Error::Cancelled) => FPT_CANCELLED,
+            Self::Budget(_) => FPT_BUDGET_EXHAUSTED,
             Self::Internal(_) => FPT_INTERNAL,
         }
     }
@@ -97,6 +101,7 @@ impl fmt::Display for Failure {
         match self {
             Self::Null(name) => write!(f, "{name}: must not be NULL"),
             Self::Refused(error) => error.fmt(f),
+            Self::Budget(text) => f.write_str(text),
             Self::Internal(text) => write!(f, "internal error, please report: {text}"),
         }
     }

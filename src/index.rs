@@ -14,6 +14,7 @@
 //!
 //! Built once, on first use or by `prepare`; immutable afterwards and shared by threads without locks.
 
+mod around;
 mod patches;
 mod piece;
 mod segments;

@@ -29,6 +29,12 @@ pub mod closest;
 
 pub mod set;
 
+pub mod roots;
+
+pub mod extrema;
+
+pub mod preimage;
+
 pub mod batch;
 
 mod ffi;

@@ -71,3 +71,87 @@ impl FootSet {
         self.undecided.is_empty()
     }
 }
+
+/// Joins boxes u0, u1, v0, v1 that touch into the hulls of their groups, in order of their least u, then v.
+pub fn joined(mut boxes: Vec<[f64; 4]>) -> Vec<[f64; 4]> {
+    boxes.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[2].total_cmp(&b[2])));
+    let mut groups: Vec<Vec<[f64; 4]>> = Vec::new();
+    for area in boxes {
+        let touches = |group: &Vec<[f64; 4]>| group.iter().any(|other| touch(other, &area));
+        let mut joined = vec![area];
+        let mut k = 0;
+        while k < groups.len() {
+            if touches(&groups[k]) {
+                joined.append(&mut groups.swap_remove(k));
+            } else {
+                k += 1;
+            }
+        }
+        groups.push(joined);
+    }
+    let mut hulls: Vec<[f64; 4]> = groups.iter().map(|group| hull(group)).collect();
+    hulls.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[2].total_cmp(&b[2])));
+    hulls
+}
+
+/// Whether two closed boxes have a point in common.
+pub fn touch(a: &[f64; 4], b: &[f64; 4]) -> bool {
+    a[0] <= b[1] && b[0] <= a[1] && a[2] <= b[3] && b[2] <= a[3]
+}
+
+fn hull(boxes: &[[f64; 4]]) -> [f64; 4] {
+    boxes
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY], |h, b| {
+            [h[0].min(b[0]), h[1].max(b[1]), h[2].min(b[2]), h[3].max(b[3])]
+        })
+}
+
+/// Share of a span from which on an interval is more than the surroundings of a point.
+const WIDE: f64 = 0.05;
+
+/// Whether an interval is more than the surroundings of a point: a good part of one of the `spans` (as far as that lies in
+/// `range`). Pieces are analytic, so that what is constant along a part of a span is constant along all of it.
+pub fn is_wide(
+    [low, high]: [f64; 2],
+    range: [f64; 2],
+    mut spans: impl Iterator<Item = [f64; 2]>,
+) -> bool {
+    spans.any(|[a, b]| {
+        let (a, b) = (a.max(range[0]), b.min(range[1]));
+        a < b && high.min(b) - low.max(a) > WIDE * (b - a)
+    })
+}
+
+/// Samples in the middle half of an interval that decide whether it is an arc.
+const ARC_SAMPLES: usize = 9;
+
+/// Whether nothing changes along an interval but for its ends: on its middle half `change` stays below a 64th of
+/// `tolerance`. Around a simple or multiple zero the middle half changes by more, around a continuum by rounding only.
+pub fn is_arc([low, high]: [f64; 2], tolerance: f64, change: impl Fn(f64) -> f64) -> bool {
+    let share = |k: usize| 0.25 + 0.5 * k as f64 / (ARC_SAMPLES - 1) as f64;
+    let still = |k: usize| change(low + share(k) * (high - low)) <= tolerance / 64.0;
+    low < high && (0..ARC_SAMPLES).all(still)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn boxes_that_touch_become_one_and_others_do_not() {
+        let boxes = vec![
+            [2.0, 3.0, 0.0, 1.0],
+            [0.0, 1.0, 0.0, 1.0],
+            [1.0, 2.0, 1.0, 2.0],
+            [5.0, 6.0, 0.0, 1.0],
+        ];
+        assert_eq!(joined(boxes), [[0.0, 3.0, 0.0, 2.0], [5.0, 6.0, 0.0, 1.0]]);
+    }
+
+    #[test]
+    fn an_interval_without_change_is_an_arc_and_a_triple_zero_is_none() {
+        assert!(is_arc([0.0, 1.0], 1e-6, |_| 1e-12));
+        assert!(!is_arc([-0.01, 0.01], 1e-6, |x| x * x * x.abs()));
+    }
+}

@@ -74,8 +74,13 @@ impl IndexedCurve {
     }
 
     fn range(&self, options: &QueryOptions) -> [f64; 2] {
+        self.restricted(options.domain)
+    }
+
+    /// The part of the domain that a restriction leaves.
+    pub(crate) fn restricted(&self, domain: Option<[f64; 4]>) -> [f64; 2] {
         let (first, last) = self.curve().domain();
-        options.domain.map_or([first, last], |d| [d[0].max(first), d[1].min(last)])
+        domain.map_or([first, last], |d| [d[0].max(first), d[1].min(last)])
     }
 
     fn local(
@@ -187,7 +192,13 @@ impl IndexedCurve {
     }
 
     /// The record at a parameter, with the flags of the place.
-    fn foot_at(&self, index: &CurveIndex, query: Vector, u: f64, range: [f64; 2]) -> FootPoint {
+    pub(crate) fn foot_at(
+        &self,
+        index: &CurveIndex,
+        query: Vector,
+        u: f64,
+        range: [f64; 2],
+    ) -> FootPoint {
         let (first, last) = self.curve().domain();
         let mut u = u;
         let mut point = self.curve().evaluate(u);

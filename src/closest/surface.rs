@@ -82,9 +82,13 @@ impl IndexedSurface {
     }
 
     fn range(&self, options: &QueryOptions) -> [f64; 4] {
+        self.restricted(options.domain)
+    }
+
+    /// The part of the domain that a restriction leaves.
+    pub(crate) fn restricted(&self, domain: Option<[f64; 4]>) -> [f64; 4] {
         let [u0, u1, v0, v1] = self.surface().domain();
-        options
-            .domain
+        domain
             .map_or([u0, u1, v0, v1], |d| [d[0].max(u0), d[1].min(u1), d[2].max(v0), d[3].min(v1)])
     }
 
@@ -201,7 +205,7 @@ impl IndexedSurface {
     }
 
     /// The record at a parameter pair, with the flags of the place.
-    fn foot_at(
+    pub(crate) fn foot_at(
         &self,
         index: &SurfaceIndex,
         query: Vector,
@@ -317,7 +321,7 @@ struct SurfaceSearch<'a> {
 }
 
 /// The part of a piece that a restriction leaves, in local parameters; `None` when it leaves nothing.
-fn local_interval(span: Span, range: [f64; 2]) -> Option<[f64; 2]> {
+pub(crate) fn local_interval(span: Span, range: [f64; 2]) -> Option<[f64; 2]> {
     let range = span.cover(range);
     (range[0] < range[1]).then_some(range)
 }

@@ -253,7 +253,7 @@ impl fpt_query_options {
     }
 }
 
-fn check_length(name: &str, length: f64) -> Result<(), Failure> {
+pub(super) fn check_length(name: &str, length: f64) -> Result<(), Failure> {
     if length.is_finite() && length >= 0.0 {
         return Ok(());
     }
@@ -281,7 +281,7 @@ fn scope(number: u32) -> Result<Scope, Failure> {
 }
 
 /// The ends that count, as four; `None` when all of them are 0.
-fn restriction(ends: &[f64]) -> Result<Option<[f64; 4]>, Failure> {
+pub(super) fn restriction(ends: &[f64]) -> Result<Option<[f64; 4]>, Failure> {
     if let Some(i) = ends.iter().position(|end| !end.is_finite()) {
         return Err(Failure::invalid(format!("domain: domain[{i}] is not finite")));
     }

@@ -120,7 +120,7 @@ pub unsafe extern "C" fn fpt_surface_invert(
 }
 
 /// What a batch needs of a shape with `N` parameters.
-trait Shape<const N: usize>: Sync {
+pub(super) trait Shape<const N: usize>: Sync {
     /// Start and end of each parameter.
     fn ends(&self) -> [[f64; 2]; N];
     fn check_restriction(&self, domain: [f64; 4]) -> Result<(), Error>;
@@ -236,6 +236,14 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
     }
 }
 
+/// Refuses a restriction that does not lie in the domain.
+pub(super) fn check_restriction<S: Shape<N>, const N: usize>(
+    shape: &S,
+    domain: Option<[f64; 4]>,
+) -> Result<(), Failure> {
+    restricted(shape, domain).map(|_| ())
+}
+
 /// The domain that answers come from.
 fn restricted<S: Shape<N>, const N: usize>(
     shape: &S,
@@ -261,12 +269,12 @@ fn hint<const N: usize>(row: [f64; N], ends: [[f64; 2]; N]) -> Option<[f64; N]> 
     if row.iter().any(|x| x.is_nan()) { None } else { Some(moved) }
 }
 
-type ShouldStop = unsafe extern "C" fn(*mut c_void) -> c_int;
+pub(super) type ShouldStop = unsafe extern "C" fn(*mut c_void) -> c_int;
 type Progress = unsafe extern "C" fn(*mut c_void, usize, usize);
 type TraceStep = unsafe extern "C" fn(*mut c_void, usize, u32, f64, f64, f64);
 
 /// The caller's functions and what they are handed.
-struct Callbacks {
+pub(super) struct Callbacks {
     should_stop: Option<ShouldStop>,
     progress: Option<Progress>,
     trace: Option<TraceStep>,
@@ -278,13 +286,18 @@ struct Callbacks {
 unsafe impl Sync for Callbacks {}
 
 impl Callbacks {
-    fn of(options: &fpt_query_options) -> Self {
+    pub(super) fn of(options: &fpt_query_options) -> Self {
         let fpt_query_options { should_stop, progress, trace, user, .. } = *options;
         Self { should_stop, progress, trace, user }
     }
 
+    /// Only the question whether to stop.
+    pub(super) fn stopping(should_stop: Option<ShouldStop>, user: *mut c_void) -> Self {
+        Self { should_stop, progress: None, trace: None, user }
+    }
+
     /// Tells how far the call is and asks whether to stop.
-    fn poll(&self, done: usize, total: usize) -> bool {
+    pub(super) fn poll(&self, done: usize, total: usize) -> bool {
         self.report(done, total);
         // SAFETY: the header asks for functions that take this `user` and do not unwind.
         self.should_stop.is_some_and(|should_stop| unsafe { should_stop(self.user) } != 0)

@@ -1,0 +1,135 @@
+//! What a stationary point is: minimum, maximum or saddle among the points around it.
+//!
+//! Around a place lie one to four pieces (more than one on knot lines and seams). Each tells, for each parameter, the sign
+//! of the first derivative into the piece, or where that vanishes the sign of the second. All signs up: a minimum; all
+//! down: a maximum; mixed: a saddle; a zero that nothing settles: flat.
+
+use crate::bounds::{dot, norm};
+use crate::jet::{Jet1, Jet2};
+use crate::set::Nature;
+
+/// First derivatives count as zero below this cosine between distance and tangent.
+const LEAST_COSINE: f64 = 1e-9;
+
+/// Second derivatives count as zero below this share of the metric.
+const LEAST_CURVATURE: f64 = 1e-7;
+
+/// Signs gathered around a place.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Signs {
+    up: bool,
+    down: bool,
+    zero: bool,
+    /// For each parameter: seen rising and falling into a piece, from the two sides of a knot line.
+    across: [[bool; 2]; 2],
+}
+
+/// Where a place lies in a piece, in one parameter: at its low end, its high end, or inside.
+pub fn end_of(x: f64) -> f64 {
+    if x == 0.0 {
+        1.0
+    } else if x == 1.0 {
+        -1.0
+    } else {
+        0.0
+    }
+}
+
+impl Signs {
+    fn put(&mut self, value: f64, least: f64) {
+        if value > least {
+            self.up = true;
+        } else if value < -least {
+            self.down = true;
+        } else {
+            self.zero = true;
+        }
+    }
+
+    /// The derivative into the piece along one parameter; true when it is not zero.
+    fn first(&mut self, k: usize, inward: f64, least: f64) -> bool {
+        if inward.abs() <= least {
+            return false;
+        }
+        self.across[k][usize::from(inward < 0.0)] = true;
+        self.put(inward, 0.0);
+        true
+    }
+
+    /// A segment at whose end (or inside of which) the place lies; `position` is how far its points may be off.
+    pub fn segment(&mut self, jet: &Jet1, x: f64, position: f64) {
+        let speed = norm(jet.s);
+        let least = speed * (LEAST_COSINE * norm(jet.d) + 32.0 * position);
+        let inward = end_of(x);
+        if inward != 0.0 && self.first(0, inward * jet.gradient(), least) {
+            return;
+        }
+        self.put(jet.hessian(), LEAST_CURVATURE * speed * speed);
+    }
+
+    /// A patch at whose side or corner (or inside of which) the place lies.
+    pub fn patch(&mut self, jet: &Jet2, at: [f64; 2], position: f64) {
+        let gradient = jet.gradient();
+        let tangents = [jet.s, jet.t];
+        let reach = LEAST_COSINE * norm(jet.d) + 32.0 * position;
+        let moves = [0, 1].map(|k| {
+            let inward = end_of(at[k]);
+            inward != 0.0 && self.first(k, inward * gradient[k], norm(tangents[k]) * reach)
+        });
+        let [a, b, c] = jet.hessian();
+        let [e, _, g] = jet.metric();
+        match moves {
+            [true, true] => {}
+            [true, false] => self.put(c, LEAST_CURVATURE * g),
+            [false, true] => self.put(a, LEAST_CURVATURE * e),
+            [false, false] => self.form([a, b, c], [e, dot(jet.s, jet.t), g]),
+        }
+    }
+
+    /// Eigenvalues of the second derivatives relative to the metric.
+    fn form(&mut self, [a, b, c]: [f64; 3], [e, f, g]: [f64; 3]) {
+        let area = e * g - f * f;
+        if area <= 1e-12 * e * g {
+            self.zero = true;
+            return;
+        }
+        // Roots of det(H - x M): x^2 - 2 m x + d = 0.
+        let m = 0.5 * (a * g - 2.0 * b * f + c * e) / area;
+        let d = (a * c - b * b) / area;
+        let spread = (m * m - d).max(0.0).sqrt();
+        for value in [m - spread, m + spread] {
+            self.put(value, LEAST_CURVATURE);
+        }
+    }
+
+    /// Whether the place is not stationary: across some knot line the distance falls on one side and rises on the other.
+    pub fn passes(&self) -> bool {
+        self.across.contains(&[true, true])
+    }
+
+    /// The verdict.
+    pub fn nature(&self) -> Nature {
+        match (self.up, self.down, self.zero) {
+            (true, true, _) => Nature::Saddle,
+            (_, _, true) => Nature::Flat,
+            (true, false, false) => Nature::Minimum,
+            (false, true, false) => Nature::Maximum,
+            (false, false, false) => Nature::Flat,
+        }
+    }
+}
+
+/// The verdict from squared distances around a place whose own is `here`, all within `tolerance` of rounding.
+pub fn from_samples(here: f64, around: impl Iterator<Item = f64>, tolerance: f64) -> Nature {
+    let (mut up, mut down) = (false, false);
+    for value in around {
+        up |= value > here + tolerance;
+        down |= value < here - tolerance;
+    }
+    match (up, down) {
+        (true, true) => Nature::Saddle,
+        (true, false) => Nature::Minimum,
+        (false, true) => Nature::Maximum,
+        (false, false) => Nature::Flat,
+    }
+}
