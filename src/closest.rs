@@ -35,7 +35,7 @@ mod curve;
 mod surface;
 
 use crate::bounds::{HALF_ULP, Vector, norm, sub};
-use crate::index::Frame;
+use crate::index::{Frame, position_error};
 use crate::refine::Method;
 use crate::tree::Queue;
 use proof::Proof;
@@ -177,12 +177,25 @@ pub fn rounding_floor(frame: &Frame, query: Vector, position: f64) -> f64 {
     16.0 * HALF_ULP * largest + 8.0 * position / frame.scale
 }
 
+/// The gap that rounding leaves to a search: eight times what a position in the shape may be off, four on either side
+/// of the target. `steps` from [`position_steps`] of the shape's degrees.
+fn search_floor(frame: &Frame, query: Vector, steps: f64, rational: bool) -> f64 {
+    let size = norm(frame.enter(query));
+    8.0 * position_error(steps, rational, 2.0, size + 2.0, size) / frame.scale
+}
+
+/// Whether the coordinates are so large beside the shape that a rounded point says less about its distance than the
+/// search does: then iterations across pieces use the vector from the query, which is not rounded to coordinates.
+fn is_coarse(frame: &Frame, query: Vector, search_floor: f64) -> bool {
+    rounding_floor(frame, query, 0.0) > 0.25 * search_floor
+}
+
 /// Steps in the local parameters at which a continuum of feet must still be one.
 const CONTINUUM_STEPS: [f64; 2] = [1.0 / 32.0, 1.0 / 16.0];
 
-/// Most of the box diagonal that the grain of the parameters (speed times the gap between doubles) may add to the
-/// rounding floor; where it is coarser, the parameters cannot say where the foot is and the answer is not proven.
-pub const MOST_GRAIN: f64 = 1e-9;
+/// Share of the box diagonal up to which the grain of the parameters (speed times the gap between doubles) may widen the
+/// allowed gap; where it is coarser, the parameters cannot say where the foot is and the answer is not proven.
+pub const MOST_GAP: f64 = 9e-10;
 
 /// Distance from `x` to the next double away from zero.
 fn ulp(x: f64) -> f64 {
@@ -201,6 +214,11 @@ impl QueryOptions {
     fn accuracy(&self, frame: &Frame) -> f64 {
         if self.accuracy > 0.0 { self.accuracy } else { 1e-10 * frame.diagonal }
     }
+}
+
+/// The allowed gap where no doubles are nearer to the parameters than `grain` in space.
+fn grained(allowed: f64, grain: f64, frame: &Frame) -> f64 {
+    allowed.max((allowed + grain).min(MOST_GAP * frame.diagonal))
 }
 
 /// What every global answer ends with: the bound in the caller's lengths and the flags of the certificate.

@@ -297,23 +297,30 @@ fn feet_that_mirror_each_other_tie_on_the_mirror_and_not_beside_it() {
     assert!(pairs > 1000 && singles > 100, "{pairs} {singles}");
 }
 
+/// What feet must tie within when queries are no finer than doubles.
+fn tie_width(shape: &Shape) -> f64 {
+    let (low, high) = shape.bounding_box();
+    let largest = low.iter().chain(&high).fold(0.0, |m: f64, x| m.max(x.abs()));
+    (1e-10 * shape.diagonal()).max(64.0 * f64::EPSILON * largest)
+}
+
 /// The last two doubles' worth of a stretch on which the foot jumps, by bisection.
 fn jump(shape: &Shape, mut a: Vector, mut b: Vector) -> Option<[FootPoint; 2]> {
+    let accuracy = tie_width(shape);
     let far = |a: &FootPoint, b: &FootPoint| norm(sub(a.point, b.point));
-    let (mut foot_a, mut foot_b) = (ask(shape, a), ask(shape, b));
+    let (mut foot_a, mut foot_b) = (within(shape, a, accuracy), within(shape, b, accuracy));
     for _ in 0..60 {
         let middle = [0, 1, 2].map(|k| 0.5 * (a[k] + b[k]));
         if middle == a || middle == b {
             break;
         }
-        let foot = ask(shape, middle);
+        let foot = within(shape, middle, accuracy);
         if far(&foot_a, &foot) >= far(&foot, &foot_b) {
             (b, foot_b) = (middle, foot);
         } else {
             (a, foot_a) = (middle, foot);
         }
     }
-    let accuracy = 1e-10 * shape.diagonal();
     let told = 50.0 * (accuracy * (foot_a.distance + accuracy)).sqrt();
     (far(&foot_a, &foot_b) > told.max(1e-6 * shape.diagonal())).then_some([foot_a, foot_b])
 }

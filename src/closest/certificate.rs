@@ -4,7 +4,7 @@
 
 use super::proof::Proof;
 use crate::bezier::{Bidegree, convolve_square, scale_down_2d, scale_up_2d};
-use crate::bounds::{HALF_ULP, Vector, dot, norm, sub};
+use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, sub};
 
 /// Rounding of the coefficients of `N = |r|^2` relative to those of `C = W^2`, as a squared length.
 ///
@@ -54,6 +54,34 @@ pub fn plane_separates(net: &[f64], count: usize, proof: &Proof, position: f64) 
     let n = [0, 1, 2].map(|c| xyz[c * count..(c + 1) * count].iter().sum::<f64>());
     let size = norm(n);
     size > 0.0 && size.is_finite() && beyond(n.map(|x| x / size), least(proof.reach()))
+}
+
+/// As [`plane_separates`], with normals for nets that are longer than they are thick, whose corners are given: that of
+/// the plane through the corners, and that away from the query across the longest diagonal.
+pub fn tilted_plane_separates(
+    net: &[f64],
+    count: usize,
+    corners: [usize; 4],
+    proof: &Proof,
+    position: f64,
+) -> bool {
+    let least = (proof.reach() + 2.0 * position) * (1.0 + 32.0 * HALF_ULP);
+    let (xyz, w) = net.split_at(3 * count);
+    let pole = |k: usize| [0, 1, 2].map(|c| xyz[c * count + k] / w[k]);
+    let [a, b, c, d] = corners.map(pole);
+    let (first, second) = (sub(d, a), sub(c, b));
+    let longest = if dot(first, first) >= dot(second, second) { first } else { second };
+    let middle = [0, 1, 2].map(|k| 0.25 * ((a[k] + d[k]) + (b[k] + c[k])));
+    let share = dot(middle, longest) / dot(longest, longest);
+    let across = [0, 1, 2].map(|k| middle[k] - share * longest[k]);
+    [cross(first, second), across].into_iter().any(|n| {
+        let size = norm(n);
+        let n = n.map(|x| x / if dot(n, middle) < 0.0 { -size } else { size });
+        n.iter().all(|x| x.is_finite())
+            && (0..count).all(|k| {
+                n[0] * xyz[k] + n[1] * xyz[count + k] + n[2] * xyz[2 * count + k] > least * w[k]
+            })
+    })
 }
 
 /// How a net (`r` and `W`) lies to what counts as one foot.

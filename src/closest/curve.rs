@@ -9,9 +9,9 @@ use super::line::{Given, Line, LineMemory, search_line};
 use super::local::{LOCAL_FLAGS, WholeCurve, curve_start};
 use super::proof::{Proof, Site, Watch, note_loose};
 use super::{
-    CONTINUUM_STEPS, FootPoint, MOST_GRAIN, QueryOptions, Scope, Workspace, certify,
-    default_budget, distance, far_foot, flag, is_bad, mark_inversion, rounding_floor, tree_limit,
-    tree_slack, ulp,
+    CONTINUUM_STEPS, FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, distance,
+    far_foot, flag, grained, is_bad, is_coarse, mark_inversion, rounding_floor, search_floor,
+    tree_limit, tree_slack, ulp,
 };
 use crate::bounds::{Vector, cross, dot, norm, sub};
 use crate::error::Error;
@@ -83,6 +83,17 @@ impl IndexedCurve {
         domain.map_or([first, last], |d| [d[0].max(first), d[1].min(last)])
     }
 
+    /// The gap that rounding leaves to a search.
+    fn floor(index: &CurveIndex, query: Vector) -> f64 {
+        search_floor(&index.frame, query, position_steps(index.degree()), index.is_rational())
+    }
+
+    /// The shape as an iteration across pieces sees it.
+    fn whole(&self, index: &CurveIndex, query: Vector) -> WholeCurve<'_> {
+        let coarse = is_coarse(&index.frame, query, Self::floor(index, query));
+        WholeCurve { curve: self.curve(), query, scale: index.frame.scale, coarse }
+    }
+
     fn local(
         &self,
         index: &CurveIndex,
@@ -94,7 +105,7 @@ impl IndexedCurve {
     ) -> FootPoint {
         let start = hint
             .unwrap_or_else(|| curve_start(index, index.frame.enter(query), &mut workspace.start));
-        let curve = WholeCurve { curve: self.curve(), query };
+        let curve = self.whole(index, query);
         let (u, _, taken) =
             foot_on_curve(&curve, start, self.range(options), options.method, trace);
         let mut foot = self.foot_at(index, query, u, self.range(options));
@@ -115,15 +126,14 @@ impl IndexedCurve {
         let traced = trace.is_some();
         let q = index.frame.enter(query);
         let steps = position_steps(index.degree());
-        let worst = position_error(steps, index.is_rational(), 2.0, norm(q) + 2.0, norm(q));
-        let allowed =
-            options.accuracy(&index.frame).max(rounding_floor(&index.frame, query, worst));
+        let gap = options.accuracy(&index.frame).max(Self::floor(index, query));
+        let allowed = gap.max(Self::floor(index, query) + rounding_floor(&index.frame, query, 0.0));
         let budget = if options.budget > 0 {
             options.budget
         } else {
             default_budget(2 * index.degree() + 1)
         };
-        let whole = WholeCurve { curve: self.curve(), query };
+        let whole = self.whole(index, query);
         let range = self.range(options);
         let search = CurveSearch { index, whole, query: q, range, options, steps };
         let mut tell = |step: u32, site: Site, d: f64| {
@@ -132,7 +142,7 @@ impl IndexedCurve {
             }
         };
         let watch: Option<Watch> = if traced { Some(&mut tell) } else { None };
-        let mut proof = Proof::new(0.5 * allowed * index.frame.scale, budget, watch);
+        let mut proof = Proof::new(0.5 * gap * index.frame.scale, budget, watch);
         if let Some(u) = hint {
             search.start_at(u, &mut proof);
         }
@@ -188,7 +198,7 @@ impl IndexedCurve {
             }
         }
         *foot = best;
-        certify(foot, proof, &index.frame, allowed + grain.min(MOST_GRAIN * index.frame.diagonal));
+        certify(foot, proof, &index.frame, grained(allowed, grain, &index.frame));
     }
 
     /// The record at a parameter, with the flags of the place.
@@ -310,6 +320,11 @@ impl CurveSearch<'_> {
     /// Goes on in the neighbour when the best foot lies on the knot between two segments: the search leaves out what
     /// is nearer by less than the accuracy, the foot should not.
     fn polish(&self, proof: &mut Proof) {
+        if let (Some(site), true) = (proof.site, proof.is_cut_off) {
+            if let Some(range) = self.local_range(site.piece) {
+                self.iterate_from(site.piece, site.at[0], range, proof);
+            }
+        }
         let Some(site) = proof.site else { return };
         let (piece, start) = match site.at[0] {
             0.0 => (site.piece.wrapping_sub(1), 1.0),

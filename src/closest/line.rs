@@ -23,6 +23,8 @@ use crate::refine::{Method, foot_on_curve};
 const MAX_WAITING: usize = 64;
 /// Narrowest box: below it the parameters have no digits left to tell points apart.
 const LEAST_WIDTH: f64 = 1e-14;
+/// Evaluations after which an iteration may have ended at its step limit.
+const LONG: u32 = 40;
 /// Halvings after which coefficients are rebuilt from the poles, to shed their rounding.
 const FRESH: u32 = 8;
 
@@ -307,6 +309,10 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         };
         self.proof.offer((self.line.site)(s), jet.d, along);
         self.proof.rival((self.line.site)(s), jet.d);
+        let [first, last] = self.line.range;
+        if (s == low && low != first) || (s == high && high != last) || taken >= LONG {
+            self.proof.cut_off((self.line.site)(s));
+        }
         (s, jet)
     }
 

@@ -8,7 +8,7 @@ mod sides;
 
 use super::certificate::{
     foot_plane_separates, free_slope, nearness, plane_separates, slope_error, square,
-    squared_error, subtract_query, underflows, value_at,
+    squared_error, subtract_query, tilted_plane_separates, underflows, value_at,
 };
 use super::differences::{Slopes, convexity};
 use super::line::LineMemory;
@@ -22,8 +22,15 @@ use crate::refine::{Method, foot_on_surface};
 
 const MAX_WAITING: usize = 128;
 const LEAST_WIDTH: f64 = 1e-14;
+/// Evaluations after which an iteration may have ended at its step limit.
+const LONG: u32 = 40;
 /// Halvings after which coefficients are rebuilt from the poles, to shed their rounding.
 const FRESH: u32 = 12;
+/// The same in a patch that has taken `HARD` boxes: there planes close what squares do not.
+const FRESH_HARD: u32 = 2;
+const HARD: u64 = 32;
+/// Tilted planes that are tried before one in eight must have closed its box.
+const TILT_TRIES: u64 = 32;
 
 /// A patch in the search.
 pub struct Sheet<'a> {
@@ -96,7 +103,8 @@ pub fn search_patch(sheet: &Sheet, memory: &mut PatchMemory, proof: &mut Proof) 
     let degree = sheet.net.degree.times(sheet.net.degree);
     let count = degree.count();
     let slot = if sheet.net.rational { 2 * count } else { count };
-    Walk { sheet, memory, proof, degree, count, slot }.run()
+    let start = proof.spent;
+    Walk { sheet, memory, proof, degree, count, slot, start, tilts: (0, 0) }.run()
 }
 
 struct Walk<'a, 'b, 't> {
@@ -107,6 +115,10 @@ struct Walk<'a, 'b, 't> {
     degree: Bidegree,
     count: usize,
     slot: usize,
+    /// Boxes that were spent before this patch.
+    start: u64,
+    /// Tilted planes tried, and boxes closed by them.
+    tilts: (u64, u64),
 }
 
 enum Verdict {
@@ -117,8 +129,13 @@ enum Verdict {
 }
 
 impl Walk<'_, '_, '_> {
+    /// Whether the patch has taken many boxes, and tilted planes close enough of them.
+    fn hard(&self) -> bool {
+        let (tries, hits) = self.tilts;
+        self.proof.spent - self.start > HARD && (tries < TILT_TRIES || 8 * hits > tries)
+    }
+
     fn run(&mut self) -> bool {
-        let start = self.proof.spent;
         let [s0, s1, t0, t1] = self.sheet.range;
         let mut first = Area { s: [s0, s1], t: [t0, t1], ..Area::default() };
         self.proof.spread = self.proof.spread.max(self.sheet.patch.spread);
@@ -131,7 +148,7 @@ impl Walk<'_, '_, '_> {
             if self.proof.is_trivial() || self.proof.has_news() {
                 return true;
             }
-            if self.proof.spent - start > self.sheet.patience {
+            if self.proof.spent - self.start > self.sheet.patience {
                 return false;
             }
             let at = self.memory.waiting.len();
@@ -265,7 +282,8 @@ impl Walk<'_, '_, '_> {
         }
         let (mut bound, mut place) = self.least_ratio(at);
         let close = bound > self.proof.level_squared() && area.age > 0;
-        if area.age >= FRESH || close || self.proof.tying {
+        let fresh = if self.hard() { FRESH_HARD } else { FRESH };
+        if area.age >= fresh || close || self.proof.tying {
             if self.load(area, at) || self.is_beyond(area, at) {
                 return Verdict::Closed;
             }
@@ -375,6 +393,10 @@ impl Walk<'_, '_, '_> {
         self.proof.evaluations += taken;
         self.proof.offer(Site { piece, at }, jet.d, || jet.flat_direction());
         self.proof.rival(Site { piece, at }, jet.d);
+        let inner = |k: usize| range[k] != self.sheet.range[k] && at[k / 2] == range[k];
+        if (0..4).any(inner) || taken >= LONG {
+            self.proof.cut_off(Site { piece, at });
+        }
         (at, jet)
     }
 
@@ -453,6 +475,17 @@ impl Walk<'_, '_, '_> {
         {
             return true;
         }
+        if self.hard() && self.proof.best.is_finite() {
+            let net = &self.memory.net[..4 * count];
+            let width = degree.t + 1;
+            let corners = [0, degree.t, degree.s * width, count - 1];
+            let hit = tilted_plane_separates(net, count, corners, self.proof, self.sheet.position);
+            self.tilts = (self.tilts.0 + 1, self.tilts.1 + u64::from(hit));
+            if hit {
+                return true;
+            }
+        }
+        let net = &mut self.memory.net[..4 * count];
         if self.proof.tying {
             let near = nearness(net, count, self.proof);
             area.small = near.small;

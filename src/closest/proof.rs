@@ -45,6 +45,8 @@ pub struct Proof<'t> {
     pub site: Option<Site>,
     /// Unit vector from the query to the best foot.
     pub direction: Vector,
+    /// Whether the iteration to the best foot ended at the side of a box, or at its step limit: it is to be continued.
+    pub is_cut_off: bool,
     /// Local parameter direction in which the best foot is stationary to second order, if there is one.
     pub flat: Option<[f64; 2]>,
     rivals: [Rival; RIVALS],
@@ -88,6 +90,7 @@ impl<'t> Proof<'t> {
             best: f64::INFINITY,
             site: None,
             direction: [0.0; 3],
+            is_cut_off: false,
             flat: None,
             rivals: [NOWHERE; RIVALS],
             rival_count: 0,
@@ -122,9 +125,15 @@ impl<'t> Proof<'t> {
             self.rival(site, d);
         }
         self.flat = flat();
+        self.is_cut_off = false;
         self.site = Some(site);
         self.target = (distance - self.gap).max(0.0);
         self.target_squared = self.target * self.target * (1.0 + 8.0 * HALF_ULP);
+    }
+
+    /// Notes of the place just offered that the iteration did not end of itself there.
+    pub fn cut_off(&mut self, site: Site) {
+        self.is_cut_off |= self.site == Some(site);
     }
 
     /// Remembers a place that may be a foot and tie with the best one; the best itself, met again, is none.

@@ -6,8 +6,9 @@ use super::local::{LOCAL_FLAGS, WholeSurface, surface_start};
 use super::patch::{PatchMemory, Sheet, search_patch};
 use super::proof::{Proof, Site, Watch, note_loose};
 use super::{
-    FootPoint, MOST_GRAIN, QueryOptions, Scope, Workspace, certify, default_budget, distance,
-    far_foot, flag, is_bad, mark_inversion, rounding_floor, tree_limit, tree_slack, ulp,
+    FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, distance, far_foot, flag,
+    grained, is_bad, is_coarse, mark_inversion, rounding_floor, search_floor, tree_limit,
+    tree_slack, ulp,
 };
 use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, sub};
 use crate::error::Error;
@@ -92,6 +93,22 @@ impl IndexedSurface {
             .map_or([u0, u1, v0, v1], |d| [d[0].max(u0), d[1].min(u1), d[2].max(v0), d[3].min(v1)])
     }
 
+    /// The gap that rounding leaves to a search.
+    fn floor(index: &SurfaceIndex, query: Vector) -> f64 {
+        search_floor(
+            &index.frame,
+            query,
+            position_steps(index.degree.s + index.degree.t),
+            index.rational,
+        )
+    }
+
+    /// The shape as an iteration across pieces sees it.
+    fn whole(&self, index: &SurfaceIndex, query: Vector) -> WholeSurface<'_> {
+        let coarse = is_coarse(&index.frame, query, Self::floor(index, query));
+        WholeSurface { surface: self.surface(), query, scale: index.frame.scale, coarse }
+    }
+
     fn local(
         &self,
         index: &SurfaceIndex,
@@ -104,7 +121,7 @@ impl IndexedSurface {
         let start = hint.unwrap_or_else(|| {
             surface_start(index, index.frame.enter(query), &mut workspace.start)
         });
-        let surface = WholeSurface { surface: self.surface(), query };
+        let surface = self.whole(index, query);
         let (at, _, taken) =
             foot_on_surface(&surface, start, self.range(options), options.method, trace);
         let mut foot = self.foot_at(index, query, at, self.range(options));
@@ -125,12 +142,11 @@ impl IndexedSurface {
         let traced = trace.is_some();
         let q = index.frame.enter(query);
         let steps = position_steps(index.degree.s + index.degree.t);
-        let worst = position_error(steps, index.rational, 2.0, norm(q) + 2.0, norm(q));
-        let allowed =
-            options.accuracy(&index.frame).max(rounding_floor(&index.frame, query, worst));
+        let gap = options.accuracy(&index.frame).max(Self::floor(index, query));
+        let allowed = gap.max(Self::floor(index, query) + rounding_floor(&index.frame, query, 0.0));
         let coefficients = index.degree.times(index.degree).count();
         let budget = if options.budget > 0 { options.budget } else { default_budget(coefficients) };
-        let whole = WholeSurface { surface: self.surface(), query };
+        let whole = self.whole(index, query);
         let range = self.range(options);
         let search = SurfaceSearch { index, whole, query: q, range, options, steps };
         let mut tell = |step: u32, site: Site, d: f64| {
@@ -140,7 +156,7 @@ impl IndexedSurface {
             }
         };
         let watch: Option<Watch> = if traced { Some(&mut tell) } else { None };
-        let mut proof = Proof::new(0.5 * allowed * index.frame.scale, budget, watch);
+        let mut proof = Proof::new(0.5 * gap * index.frame.scale, budget, watch);
         if let Some(at) = hint {
             search.start_at(at, &mut proof);
         }
@@ -201,7 +217,7 @@ impl IndexedSurface {
             }
         }
         *foot = best;
-        certify(foot, proof, &index.frame, allowed + grain.min(MOST_GRAIN * index.frame.diagonal));
+        certify(foot, proof, &index.frame, grained(allowed, grain, &index.frame));
     }
 
     /// The record at a parameter pair, with the flags of the place.
@@ -447,9 +463,14 @@ impl SurfaceSearch<'_> {
         }
     }
 
-    /// Goes on in the neighbours when the best foot lies on the line between two patches: the search leaves out what
+    /// Goes on where an iteration was cut off, and in the neighbours when the best foot lies on the line between two patches: the search leaves out what
     /// is nearer by less than the accuracy, the foot should not.
     fn polish(&self, proof: &mut Proof) {
+        if let (Some(site), true) = (proof.site, proof.is_cut_off) {
+            if let Some(range) = self.local_range(site.piece) {
+                self.iterate_from(site.piece, site.at, range, Method::Auto, proof);
+            }
+        }
         let Some(site) = proof.site else { return };
         let (columns, rows) = (self.index.columns, self.index.patches.len() / self.index.columns);
         let place = [site.piece / columns, site.piece % columns];

@@ -10,6 +10,10 @@ pub trait SurfaceJets {
     fn jet(&self, s: f64, t: f64) -> Jet2;
     /// The parameters as the caller knows them, for traces.
     fn global(&self, s: f64, t: f64) -> [f64; 2];
+    /// What the caller's lengths are multiplied by.
+    fn scale(&self) -> f64 {
+        1.0
+    }
 }
 
 impl SurfaceJets for (BezierPatch<'_>, Vector) {
@@ -158,7 +162,7 @@ fn tell(
 ) {
     if let Some(trace) = trace {
         let [u, v] = surface.global(at[0], at[1]);
-        trace(step, u, v, jet.squared().sqrt());
+        trace(step, u, v, jet.squared().sqrt() / surface.scale());
     }
 }
 

@@ -3,7 +3,7 @@
 use super::super::line::LineMemory;
 use super::super::proof::{Proof, Rival, Site};
 use super::super::ties::{Finding, Ground, HOPS, LEAST_GAIN, flags, told_apart};
-use super::super::{Workspace, rounding_floor};
+use super::super::{Workspace, tree_slack};
 use super::CurveSearch;
 use crate::bounds::{Vector, norm, sub};
 use crate::refine::{Method, foot_on_curve};
@@ -16,7 +16,7 @@ struct CurveGround<'a, 'b> {
 impl CurveSearch<'_> {
     /// How far a distance may be off that is formed from the caller's shape, in the index's lengths.
     fn noise(&self) -> f64 {
-        rounding_floor(&self.index.frame, self.whole.query, 0.0) * self.index.frame.scale
+        tree_slack(self.query)
     }
 
     /// The flags of a walk that has ended.
@@ -93,8 +93,8 @@ impl Ground for CurveGround<'_, '_> {
         let way = shortest(search.parameter(site) - home, search.period());
         told_apart(d, search.noise(), proof, |share| {
             let at = wrapped(home + share * way, first, last);
-            let point = search.whole.curve.evaluate(at);
-            norm(sub(point, search.whole.query)) * search.index.frame.scale
+            let d = search.whole.curve.vector_from(search.whole.query, at);
+            norm(d) * search.index.frame.scale
         })
     }
 }

@@ -4,7 +4,7 @@ use super::super::curve::{neighbour, shortest, wrapped};
 use super::super::patch::PatchMemory;
 use super::super::proof::{Proof, Rival, Site};
 use super::super::ties::{Finding, Ground, HOPS, LEAST_GAIN, flags, told_apart};
-use super::super::{CONTINUUM_STEPS, Workspace, rounding_floor};
+use super::super::{CONTINUUM_STEPS, Workspace, tree_slack};
 use super::SurfaceSearch;
 use crate::bounds::{Vector, norm, sub};
 use crate::refine::{Method, foot_on_surface};
@@ -20,7 +20,7 @@ struct SurfaceGround<'a, 'b> {
 impl SurfaceSearch<'_> {
     /// How far a distance may be off that is formed from the caller's shape, in the index's lengths.
     fn noise(&self) -> f64 {
-        rounding_floor(&self.index.frame, self.whole.query, 0.0) * self.index.frame.scale
+        tree_slack(self.query)
     }
 
     /// The flat direction of a foot on a side of its patch, where it was found in one parameter only; at a collapsed
@@ -193,8 +193,8 @@ impl Ground for SurfaceGround<'_, '_> {
         told_apart(d, search.noise(), proof, |share| {
             let [u, v] =
                 [0, 1].map(|k| wrapped(home[k] + share * way[k], ends[2 * k], ends[2 * k + 1]));
-            let point = search.whole.surface.evaluate(u, v);
-            norm(sub(point, search.whole.query)) * search.index.frame.scale
+            let d = search.whole.surface.vector_from(search.whole.query, u, v);
+            norm(d) * search.index.frame.scale
         })
     }
 }
