@@ -181,3 +181,91 @@ fn weights_whose_squares_underflow_close_no_box() {
         "{foot:?} {nearest}"
     );
 }
+
+#[test]
+fn grain_and_accuracy_together_stay_below_the_limit_of_a_silent_gap() {
+    // The last span, 1e-10 long, runs through half the curve; no double parameter is near the query's foot.
+    let (a, b, c) = (-0.17882572046639722, 0.3411052747785883, 0.7145233173438154);
+    let end = 0.7145233174438154;
+    let knots = [-1., -1., -1., -1., a, b, b, b, c, end, end, end, end];
+    let poles = [
+        [0., -0.08898207200154067, -0.042374642225009446],
+        [0.2, -0.22022222783132542, -0.1867324164374119],
+        [1., 0.03239796977105913, 0.0537800585613947],
+        [1.2, 0.24572588463085598, 0.126702749904746],
+        [1.4, -0.24500434354194536, -0.06461723088626208],
+        [1.6, -0.015698730604853803, -0.14903395451257603],
+        [1.8, 0.21454269069860513, -0.031963905839379206],
+        [2., -0.016190190330436692, -0.18846977065063528],
+        [2.2, 0.1, 0.2],
+    ];
+    let curve = IndexedCurve::new(Curve::new(&knots, 3, &poles, None).unwrap());
+    let diagonal = 2.3;
+    for k in 0..200 {
+        let s = (f64::from(k) + 0.37) / 200.0;
+        let there = curve.curve().evaluate(c + s * (end - c));
+        let query = [there[0] + 1e-8, there[1] - 2e-8, there[2] + 1e-8];
+        let foot = ask_curve(&curve, query, None, &QueryOptions::default());
+        let gap = foot.distance - foot.lower_bound;
+        assert!(foot.flags & flag::NOT_PROVEN != 0 || gap <= 0.95e-9 * diagonal, "{foot:?}");
+    }
+}
+
+#[test]
+fn a_vanishing_derivative_beside_a_tiny_patch_does_not_stop_the_iteration() {
+    // Along u the first patch is 4.6e-11 long, and at its end the derivative almost vanishes.
+    let short = 4.552872749773262e-11;
+    let knots_u = [0., 0., 0., 0., short, 1., 1., 1., 1.];
+    let knots_v = [0., 0., 1., 1.];
+    let mut poles = Vec::new();
+    for [x, z] in [[-0.4, 0.3], [0.0, 0.05], [0.02, 0.0], [0.5, 0.1], [1.0, 0.4]] {
+        poles.extend([[x, 0., z], [x + 0.1, 1., z]]);
+    }
+    let surface = Surface::new(&knots_u, &knots_v, 3, 1, &poles, 5, 2, None).unwrap();
+    let surface = IndexedSurface::new(surface);
+    for k in 0..40 {
+        let query = [-0.3 + 0.01 * f64::from(k), 0.4, -0.5];
+        let foot =
+            surface.closest(query, None, &QueryOptions::default(), &mut Workspace::default(), None);
+        for step in [0.003, 0.01, 0.03, 0.1, 0.3] {
+            for u in [foot.u - step * short, foot.u + step * short] {
+                let there = surface.surface().evaluate(u.clamp(0.0, 1.0), foot.v);
+                let away = (0..3).map(|c| (there[c] - query[c]).powi(2)).sum::<f64>().sqrt();
+                assert!(foot.distance <= away + 1e-14, "{foot:?} {u:e} {away}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_second_foot_found_first_still_ties() {
+    // Two strands of a curve, covered twice, on both sides of the query: four feet, two points.
+    let poles = [[0., 0., 0.], [1., 2., 0.], [2., 0., 0.], [1., 2., 0.], [0., 0., 0.]];
+    let knots = [0., 0., 0., 1., 1., 2., 2., 2.];
+    let curve = IndexedCurve::new(Curve::new(&knots, 2, &poles, None).unwrap());
+    let foot = ask_curve(&curve, [1., 0.2, 0.], None, &QueryOptions::default());
+    assert_eq!(foot.flags & (flag::TIE | flag::NOT_PROVEN), flag::TIE, "{foot:?}");
+    let foot = ask_curve(&curve, [1.01, 0.2, 0.], None, &QueryOptions::default());
+    assert_eq!(foot.flags & (flag::TIE | flag::NOT_PROVEN), 0, "{foot:?}");
+}
+
+#[test]
+fn the_bound_is_as_sharp_far_from_the_origin() {
+    let offset = 1e8;
+    let poles: Vec<[f64; 3]> = (0..5)
+        .map(|i| [offset + f64::from(i), offset - 2.0 * f64::from(i % 2), 0.5 * f64::from(i % 3)])
+        .collect();
+    let knots = [0., 0., 0., 0., 0.5, 1., 1., 1., 1.];
+    let curve = IndexedCurve::new(Curve::new(&knots, 3, &poles, None).unwrap());
+    let moved: Vec<[f64; 3]> = poles.iter().map(|p| [p[0] - offset, p[1] - offset, p[2]]).collect();
+    let near = IndexedCurve::new(Curve::new(&knots, 3, &moved, None).unwrap());
+    for k in 0..20 {
+        let query = [0.25 * f64::from(k), 1.5, -0.5 * f64::from(k % 5)];
+        let far = [query[0] + offset, query[1] + offset, query[2]];
+        let expected = ask_curve(&near, query, None, &QueryOptions::default());
+        let foot = ask_curve(&curve, far, None, &QueryOptions::default());
+        assert!((foot.u - expected.u).abs() < 1e-13, "{foot:?} {expected:?}");
+        assert!((foot.lower_bound - expected.lower_bound).abs() < 1e-9, "{foot:?} {expected:?}");
+        assert_eq!(foot.flags & flag::NOT_PROVEN, 0);
+    }
+}

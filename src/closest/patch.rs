@@ -7,8 +7,8 @@
 mod sides;
 
 use super::certificate::{
-    foot_plane_separates, free_slope, nearness, plane_separates, slope_error, square,
-    squared_error, subtract_query, tilted_plane_separates, underflows, value_at,
+    foot_plane_separates, free_slope, least_height, nearness, plane_separates, slope_error, square,
+    squared_error, subtract_query, tilted_height, underflows, value_at,
 };
 use super::differences::{Slopes, convexity};
 use super::line::LineMemory;
@@ -29,7 +29,7 @@ const FRESH: u32 = 12;
 /// The same in a patch that has taken `HARD` boxes: there planes close what squares do not.
 const FRESH_HARD: u32 = 2;
 const HARD: u64 = 32;
-/// Tilted planes that are tried before one in eight must have closed its box.
+/// Tilted planes that are tried before one in 64 must have closed its box.
 const TILT_TRIES: u64 = 32;
 
 /// A patch in the search.
@@ -132,7 +132,7 @@ impl Walk<'_, '_, '_> {
     /// Whether the patch has taken many boxes, and tilted planes close enough of them.
     fn hard(&self) -> bool {
         let (tries, hits) = self.tilts;
-        self.proof.spent - self.start > HARD && (tries < TILT_TRIES || 8 * hits > tries)
+        self.proof.spent - self.start > HARD && (tries < TILT_TRIES || 64 * hits > tries)
     }
 
     fn run(&mut self) -> bool {
@@ -458,6 +458,25 @@ impl Walk<'_, '_, '_> {
         value > 0.0 && loss <= 2.0 * value * (1.0 - 1e-10)
     }
 
+    /// Whether a plane that fits the net in the scratch memory separates it from the query.
+    fn is_under_a_tilted_plane(&mut self) -> bool {
+        let degree = self.sheet.net.degree;
+        let (count, position) = (degree.count(), self.sheet.position);
+        let corners = [0, degree.t, degree.s * (degree.t + 1), count - 1];
+        let height = tilted_height(&self.memory.net[..4 * count], count, corners, self.proof);
+        let beyond_ties = height > least_height(self.proof.reach(), position);
+        let hit = if self.proof.tying {
+            beyond_ties
+        } else {
+            height > least_height(self.proof.target, position)
+        };
+        self.tilts = (self.tilts.0 + 1, self.tilts.1 + u64::from(hit));
+        if hit && !beyond_ties {
+            self.proof.loosen(self.proof.target);
+        }
+        hit
+    }
+
     /// Rebuilds the coefficients of slot `at` from the poles; true when a plane already separates the query.
     fn load(&mut self, area: &mut Area, at: usize) -> bool {
         let degree = self.sheet.net.degree;
@@ -475,15 +494,8 @@ impl Walk<'_, '_, '_> {
         {
             return true;
         }
-        if self.hard() && self.proof.best.is_finite() {
-            let net = &self.memory.net[..4 * count];
-            let width = degree.t + 1;
-            let corners = [0, degree.t, degree.s * width, count - 1];
-            let hit = tilted_plane_separates(net, count, corners, self.proof, self.sheet.position);
-            self.tilts = (self.tilts.0 + 1, self.tilts.1 + u64::from(hit));
-            if hit {
-                return true;
-            }
+        if self.hard() && self.proof.best.is_finite() && self.is_under_a_tilted_plane() {
+            return true;
         }
         let net = &mut self.memory.net[..4 * count];
         if self.proof.tying {
