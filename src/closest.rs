@@ -56,9 +56,12 @@ pub mod flag {
     pub const SEAM: u32 = 8;
     /// The foot lies on a collapsed edge: a whole parameter interval maps to it.
     pub const COLLAPSED: u32 = 16;
-    /// Another foot lies within the accuracy of the least distance.
+    /// Another foot lies within the accuracy of the least distance, or that could not be excluded within the budget.
+    ///
+    /// Feet are points in space: a seam or a self-intersection is one foot, and so are places nearer to one another than
+    /// eight times the root of distance times accuracy. At a distance below half the accuracy there are no ties.
     pub const TIE: u32 = 32;
-    /// The feet form a continuum.
+    /// The feet form a continuum, the same distance up to rounding. A tie as well.
     pub const CONTINUUM: u32 = 64;
     /// Inversion: proven farther than the tolerance.
     pub const NOT_ON_SHAPE: u32 = 128;

@@ -378,3 +378,41 @@ fn ties_do_not_depend_on_the_workspace() {
         assert_eq!(used, ask(&shape, query));
     }
 }
+
+/// A sphere or a torus whose poles are moved by `size`, so that its centre or core sees an almost-continuum.
+fn jittered(round: bool, size: f64, seed: u64) -> Shape {
+    let Shape::Surface(exact) = (if round { sphere() } else { torus() }) else { unreachable!() };
+    let (exact, r) = (exact.surface(), &mut Random(seed));
+    let poles: Vec<Vector> = exact.poles().iter().map(|p| along(*p, r.vector(), size)).collect();
+    let (u, v) = (exact.knots_u(), exact.knots_v());
+    let (counts, degrees) = ([u.pole_count(), v.pole_count()], [u.degree(), v.degree()]);
+    surface((u.values(), v.values()), degrees, counts, &poles, exact.weights())
+}
+
+#[test]
+fn near_focal_points_and_almost_continua_the_work_is_bounded_and_the_bound_honest() {
+    let (mut most, mut open, mut asked) = (0, 0, 0);
+    for (k, size) in [1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13].into_iter().enumerate() {
+        for seed in 0..4 {
+            let (ball, ring) = (jittered(true, size, seed), jittered(false, size, seed));
+            let r = &mut Random(17 * seed + k as u64);
+            for _ in 0..6 {
+                let off = r.vector().map(|x| x * size * r.scale(-3.0, 1.0));
+                for (shape, query) in
+                    [(&ball, off), (&ring, along([2., 0., 0.], off, 1.0)), (&ring, off)]
+                {
+                    let foot = ask(shape, query);
+                    assert!(foot.lower_bound <= foot.distance);
+                    let gap = foot.distance - foot.lower_bound;
+                    let proven = foot.flags & flag::NOT_PROVEN == 0;
+                    assert!(!proven || gap <= 1.01e-10 * shape.diagonal(), "{size} {foot:?}");
+                    most = most.max(foot.iterations);
+                    open += usize::from(!proven);
+                    asked += 1;
+                }
+            }
+        }
+    }
+    assert!(most <= 2_000, "{most} evaluations");
+    assert!(100 * open <= 2 * asked, "{open} of {asked} are not proven");
+}
