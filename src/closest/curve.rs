@@ -89,8 +89,8 @@ impl IndexedCurve {
     }
 
     /// The shape as an iteration across pieces sees it.
-    fn whole(&self, index: &CurveIndex, query: Vector) -> WholeCurve<'_> {
-        let coarse = is_coarse(&index.frame, query, Self::floor(index, query));
+    fn whole(&self, index: &CurveIndex, query: Vector, floor: f64) -> WholeCurve<'_> {
+        let coarse = is_coarse(&index.frame, query, floor);
         WholeCurve { curve: self.curve(), query, scale: index.frame.scale, coarse }
     }
 
@@ -105,7 +105,7 @@ impl IndexedCurve {
     ) -> FootPoint {
         let start = hint
             .unwrap_or_else(|| curve_start(index, index.frame.enter(query), &mut workspace.start));
-        let curve = self.whole(index, query);
+        let curve = self.whole(index, query, Self::floor(index, query));
         let (u, _, taken) =
             foot_on_curve(&curve, start, self.range(options), options.method, trace);
         let mut foot = self.foot_at(index, query, u, self.range(options));
@@ -126,14 +126,15 @@ impl IndexedCurve {
         let traced = trace.is_some();
         let q = index.frame.enter(query);
         let steps = position_steps(index.degree());
-        let gap = options.accuracy(&index.frame).max(Self::floor(index, query));
-        let allowed = gap.max(Self::floor(index, query) + rounding_floor(&index.frame, query, 0.0));
+        let floor = Self::floor(index, query);
+        let gap = options.accuracy(&index.frame).max(floor);
+        let allowed = gap.max(floor + rounding_floor(&index.frame, query, 0.0));
         let budget = if options.budget > 0 {
             options.budget
         } else {
             default_budget(2 * index.degree() + 1)
         };
-        let whole = self.whole(index, query);
+        let whole = self.whole(index, query, floor);
         let range = self.range(options);
         let search = CurveSearch { index, whole, query: q, range, options, steps };
         let mut tell = |step: u32, site: Site, d: f64| {

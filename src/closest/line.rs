@@ -357,12 +357,14 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         true
     }
 
-    /// Whether `h` is convex for every squared distance of a foot that counts (it is linear in that): then all feet
+    /// Whether `h`, convex at the level, is so for every squared distance of a foot that counts (it is linear in that, so
+    /// the other end of them decides): then all feet
     /// are least points of the interval, and there is one.
     fn has_one_foot(&mut self, interval: &Interval, at: usize, weight: f64) -> bool {
         let target = self.proof.target;
-        let ends = self.proof.counted(target * target);
-        ends.into_iter().all(|mu| self.curvature(interval, at, weight, mu) > 0.0)
+        let [first, last] = self.proof.counted(target * target);
+        let other = if self.proof.tying { first } else { last };
+        self.curvature(interval, at, weight, other) > 0.0
     }
 
     /// A lower bound of the second derivative of `h` for the squared distance `mu`, in the interval's own unit parameter.

@@ -425,12 +425,14 @@ impl Walk<'_, '_, '_> {
         proven
     }
 
-    /// Whether `h` is convex for every squared distance of a foot that counts (it is linear in that): then all feet
+    /// Whether `h`, convex at the level, is so for every squared distance of a foot that counts (it is linear in that, so
+    /// the other end of them decides): then all feet
     /// are least points of the area, and there is one.
     fn has_one_foot(&mut self, area: &Area, at: usize, weight: f64) -> bool {
         let target = self.proof.target;
-        let ends = self.proof.counted(target * target);
-        ends.into_iter().all(|mu| self.curvature(area, at, weight, mu).is_some())
+        let [first, last] = self.proof.counted(target * target);
+        let other = if self.proof.tying { first } else { last };
+        self.curvature(area, at, weight, other).is_some()
     }
 
     /// Bounds of the second derivatives of `h` for the squared distance `mu` (see [`convexity`]).

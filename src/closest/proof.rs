@@ -159,6 +159,11 @@ impl<'t> Proof<'t> {
         }
     }
 
+    /// Whether any place is remembered.
+    pub fn has_rivals(&self) -> bool {
+        self.rival_count > 0
+    }
+
     /// The next place that has not been looked at.
     pub fn next_rival(&mut self) -> Option<Rival> {
         let next = self.rivals[..self.rival_count].iter_mut().find(|rival| !rival.seen)?;

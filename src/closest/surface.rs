@@ -104,8 +104,8 @@ impl IndexedSurface {
     }
 
     /// The shape as an iteration across pieces sees it.
-    fn whole(&self, index: &SurfaceIndex, query: Vector) -> WholeSurface<'_> {
-        let coarse = is_coarse(&index.frame, query, Self::floor(index, query));
+    fn whole(&self, index: &SurfaceIndex, query: Vector, floor: f64) -> WholeSurface<'_> {
+        let coarse = is_coarse(&index.frame, query, floor);
         WholeSurface { surface: self.surface(), query, scale: index.frame.scale, coarse }
     }
 
@@ -121,7 +121,7 @@ impl IndexedSurface {
         let start = hint.unwrap_or_else(|| {
             surface_start(index, index.frame.enter(query), &mut workspace.start)
         });
-        let surface = self.whole(index, query);
+        let surface = self.whole(index, query, Self::floor(index, query));
         let (at, _, taken) =
             foot_on_surface(&surface, start, self.range(options), options.method, trace);
         let mut foot = self.foot_at(index, query, at, self.range(options));
@@ -142,11 +142,12 @@ impl IndexedSurface {
         let traced = trace.is_some();
         let q = index.frame.enter(query);
         let steps = position_steps(index.degree.s + index.degree.t);
-        let gap = options.accuracy(&index.frame).max(Self::floor(index, query));
-        let allowed = gap.max(Self::floor(index, query) + rounding_floor(&index.frame, query, 0.0));
+        let floor = Self::floor(index, query);
+        let gap = options.accuracy(&index.frame).max(floor);
+        let allowed = gap.max(floor + rounding_floor(&index.frame, query, 0.0));
         let coefficients = index.degree.times(index.degree).count();
         let budget = if options.budget > 0 { options.budget } else { default_budget(coefficients) };
-        let whole = self.whole(index, query);
+        let whole = self.whole(index, query, floor);
         let range = self.range(options);
         let search = SurfaceSearch { index, whole, query: q, range, options, steps };
         let mut tell = |step: u32, site: Site, d: f64| {

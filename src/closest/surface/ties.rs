@@ -72,7 +72,8 @@ impl SurfaceSearch<'_> {
 
     /// The flags of a walk that has ended.
     pub(super) fn ties(&self, workspace: &mut Workspace, proof: &mut Proof) -> u32 {
-        if proof.is_trivial() {
+        let nothing_met = workspace.loose.is_empty() && !proof.has_rivals();
+        if proof.is_trivial() || nothing_met {
             return 0;
         }
         let mut ground = SurfaceGround { search: self, memory: &mut workspace.patch };
