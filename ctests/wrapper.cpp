@@ -3,7 +3,10 @@
 
 #include "samples.h"
 
+#include <cmath>
 #include <cstring>
+#include <memory>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -177,6 +180,118 @@ void a_stop_is_thrown_and_the_records_stay() {
     CHECK(std::isnan(foot.distance) && foot.lower_bound == 0 && (foot.flags & FPT_FOOT_NOT_PROVEN));
 }
 
+// A function may hold anything and throw; its copy goes with the handle.
+void functions_make_shapes() {
+    const auto held = std::make_shared<double>(2.0);
+    {
+        const curve round = curve::from_function(
+            [held](double u, std::uint32_t, double *out) {
+                if (u > 3 && u < 3.01) throw std::runtime_error("a hole");
+                out[0] = *held * std::cos(u);
+                out[1] = *held * std::sin(u);
+                out[2] = 0;
+                return 0;
+            },
+            {0, 6.283185307179586}, 0, 2);
+        CHECK(held.use_count() > 1 && round.is_closed());
+        CHECK_NEAR(round.closest({3, 0, 0})[0].distance, 1, 1e-12);
+        check_thrown([&] { round.evaluate(3.005); }, FPT_INVALID_ARGUMENT, "failed at");
+        check_thrown([&] { round.degree(); }, FPT_UNSUPPORTED, "given by a function");
+    }
+    CHECK(held.use_count() == 1);
+    const surface plane = surface::from_function(
+        [](double u, double v, std::uint32_t, double *out) {
+            out[0] = u;
+            out[1] = v;
+            out[2] = 0;
+            return 0;
+        },
+        {0, 1, 0, 1}, {}, {1e-9, 0, 0});
+    const fpt_foot_point foot = plane.closest({0.5, 2, 0})[0];
+    CHECK(foot.v == 1 && (foot.flags & FPT_FOOT_NOT_PROVEN) == 0);
+    check_thrown([] { curve::from_function(nullptr, {0, 1}); }, FPT_NULL_ARGUMENT, "evaluate");
+    const auto fails = [](double, std::uint32_t, double *) { return -1; };
+    check_thrown([&] { curve::from_function(fails, {0, 1}); }, FPT_INVALID_ARGUMENT, "finite");
+}
+
+void sets_are_those_of_the_c_api() {
+    const surface cone(cone_surface());
+    const curve round = circle();
+    const footpoint::point apex{1, 0, 3}, seam{3, 0, 0}, beside{4, 0, 2};
+    const footpoint::foot_set tip = cone.preimage(apex);
+    CHECK(tip.size() == 1 && !tip.empty() && tip.is_complete() && tip[0].kind == FPT_MEMBER_ARC_U);
+    CHECK(round.preimage(seam).size() == 2 && round.preimage({9, 9, 9}).empty());
+    const auto all = cone.extrema(beside);
+    fpt_foot_set *raw = nullptr;
+    CHECK_OK(fpt_surface_extrema(cone.get(), beside.data(), nullptr, &raw));
+    const footpoint::foot_set same_set(raw);
+    CHECK(all.size() == same_set.size() && all.undecided().empty());
+    std::size_t count = 0;
+    for (const fpt_foot_member &member : all) {
+        const fpt_foot_member other = same_set[count++];
+        CHECK(std::memcmp(&member, &other, sizeof member) == 0);
+    }
+    CHECK(count == all.size());
+    footpoint::extrema_options options;
+    options.nearest = 1;
+    CHECK(cone.extrema(beside, options).size() == 1 && round.extrema(beside, options).size() == 1);
+    const auto line = round.on_line({-9, 0, 0}, {1, 0, 0});
+    CHECK(line.size() == 3 && line[0].foot.u == 2);
+    CHECK(round.on_line({-9, 0, 0}, {1, 0, 0}, {10, 13}).size() == 2);
+    CHECK(cone.on_line({-9, 0, 1.5}, {1, 0, 0}).size() == 3);
+    const auto below = cone.project({2, 0, 9, 0, 0, 9}, {0, 0, 1});
+    CHECK(below.size() == 2 && below[0].distance > 7.4 && below[0].distance < 7.6);
+    CHECK(round.project({-7, 0, 0}, {1, 0, 0})[0].distance == 6);
+}
+
+void an_incomplete_set_is_a_set_and_other_failures_are_thrown() {
+    const surface shape = paper();
+    const curve round = circle();
+    footpoint::extrema_options few;
+    few.budget = 1;
+    const auto part = shape.extrema({300, 250, 100}, few);
+    CHECK(!part.is_complete() && !part.undecided().empty());
+    check_thrown([&] { part[part.size()]; }, FPT_INVALID_ARGUMENT, "index");
+    check_thrown([&] { shape.preimage({NAN, 0, 0}); }, FPT_INVALID_ARGUMENT, "point");
+    check_thrown([&] { shape.preimage({0, 0, 0}, -1); }, FPT_INVALID_ARGUMENT, "tolerance");
+    check_thrown([&] { round.on_line({0, 0, 0}, {0, 0, 0}); }, FPT_INVALID_ARGUMENT, "direction");
+    check_thrown([&] { round.on_line({0, 0, 0}, {0, 0, 1}, {1, 0}); }, FPT_INVALID_ARGUMENT, "reach");
+    check_thrown([&] { round.project({0, 0}, {0, 0, 1}); }, FPT_INVALID_ARGUMENT, "points");
+    few.radius = -1;
+    check_thrown([&] { round.extrema({0, 0, 0}, few); }, FPT_INVALID_ARGUMENT, "radius");
+    footpoint::foot_set moved = round.preimage({3, 0, 0});
+    footpoint::foot_set other = std::move(moved);
+    CHECK(other.size() == 2);
+    check_thrown([&] { moved.size(); }, FPT_NULL_ARGUMENT, "set");
+    fpt_foot_set *raw = other.release();
+    CHECK(raw != nullptr && other.get() == nullptr);
+    fpt_foot_set_free(raw);
+}
+
+void normals_and_paths_are_those_of_the_c_api() {
+    const surface shape = paper();
+    const curve round = circle();
+    const std::vector<double> points{300, 250, 100, 320, 260, 100, 575, 400, 0};
+    const auto feet = shape.closest(points);
+    double normals[9], distances[3], extents[6];
+    uint32_t flags[3];
+    CHECK_OK(fpt_surface_normals(shape.get(), points.data(), feet.data(), 3, normals, distances, flags));
+    const footpoint::directions found = shape.normals(points, feet);
+    CHECK_SAME_BITS(found.vectors.data(), normals, sizeof normals);
+    CHECK_SAME_BITS(found.signed_distances.data(), distances, sizeof distances);
+    CHECK_SAME_BITS(found.flags.data(), flags, sizeof flags);
+    CHECK_OK(fpt_surface_uncertainty(shape.get(), feet.data(), 3, 0, extents));
+    CHECK_SAME_BITS(shape.uncertainty(feet).data(), extents, sizeof extents);
+    CHECK(shape.path(points).unwrapped.size() == 6 && shape.path(points).feet[2].u == feet[2].u);
+    CHECK(shape.unwrap({5, 5}, {0.5, 0.25})[1] == 0.25);
+    CHECK(shape.evaluate_sided(0.25, 0.5, -1, 1).size() == 9);
+    const auto on_circle = round.closest({5, 1, 0, -1, 5, 0});
+    CHECK(round.tangents(on_circle).vectors.size() == 6 && round.uncertainty(on_circle, 1e-3)[0] < 1e-2);
+    CHECK(round.unwrap(9, 0.5) == 8.5 && round.evaluate_sided(1, -1, 0) == round.evaluate_sided(1, -1, 0));
+    CHECK(round.path({5, 1, 0, -1, 5, 0}).changes.size() == 2);
+    check_thrown([&] { shape.normals({1, 2, 3}, feet); }, FPT_INVALID_ARGUMENT, "points");
+}
+
 void versions_agree() {
     CHECK(footpoint::version() == FPT_VERSION && footpoint::abi_version() == FPT_ABI_VERSION);
 }
@@ -191,6 +306,10 @@ int main() {
     RUN(handles_move_and_are_handed_over);
     RUN(failures_are_thrown);
     RUN(a_stop_is_thrown_and_the_records_stay);
+    RUN(functions_make_shapes);
+    RUN(sets_are_those_of_the_c_api);
+    RUN(an_incomplete_set_is_a_set_and_other_failures_are_thrown);
+    RUN(normals_and_paths_are_those_of_the_c_api);
     RUN(versions_agree);
     return check_report("wrapper");
 }

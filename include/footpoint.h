@@ -9,7 +9,7 @@
  * Failure   A function that can fail returns an fpt_status: FPT_OK (0) or a number of fpt_status_code.
  *           fpt_last_error() has the text of the calling thread's last failure; it names the parameter
  *           and the index. Outputs are written only when FPT_OK is returned (exceptions: FPT_CANCELLED
- *           and FPT_INTERNAL in _closest and _invert; sets that FPT_BUDGET_EXHAUSTED leaves incomplete
+ *           and FPT_INTERNAL in _closest, _invert and _path; sets that FPT_BUDGET_EXHAUSTED leaves incomplete
  *           are handed over too). Arguments are checked before work begins. The
  *           library never prints, exits, throws or aborts over bad input; a defect of the library itself
  *           returns FPT_INTERNAL, and handles stay valid.
@@ -18,12 +18,13 @@
  *           no alignment. An array of no elements may be NULL. Outputs must not overlap inputs.
  *           FPT_INVALID_ARGUMENT is returned for counts whose product overflows.
  * Numbers   NaN, infinity and (for knots, poles and weights) anything beyond 1e100 are refused in every
- *           array but query points (the record is marked) and hints (NaN: no hint).
+ *           array but query points (the record is marked), hints (NaN: no hint) and feet (NaN: no foot).
  * Ownership Inputs are copied. Handles belong to the caller and are released by the matching _free, in
  *           any order; _free(NULL) does nothing.
  * Threads   Handles never change after _new. A function that takes a handle as const may run on any
  *           number of threads at a time. There is no global state and nothing to initialise. Callbacks
- *           run on the calling thread only, may call fpt_ functions, and must not throw or longjmp.
+ *           in options run on the calling thread only; the evaluate of a shape from a callback runs on any
+ *           thread. Both may call fpt_ functions, and must not throw or longjmp.
  * Versions  Structs that begin with struct_size grow at the end only. A struct that is longer than this
  *           library knows is accepted when the rest is zero and FPT_UNSUPPORTED otherwise. A shorter
  *           fpt_query_options that ends between two fields has defaults in the rest; shape data must
@@ -188,16 +189,117 @@ typedef enum fpt_scope {
 } fpt_scope;
 
 /**
+ * What the parameters of a member form, for fpt_foot_member.kind.
+ */
+typedef enum fpt_member_kind {
+    /**
+     * One place. The intervals enclose what the tolerance leaves open.
+     */
+    FPT_MEMBER_POINT = 0,
+    /**
+     * An interval of u with v fixed: every u in it gives the point (preimage) or the distance (extrema).
+     */
+    FPT_MEMBER_ARC_U = 1,
+    /**
+     * An interval of v with u fixed.
+     */
+    FPT_MEMBER_ARC_V = 2,
+    /**
+     * Both parameters vary.
+     */
+    FPT_MEMBER_REGION = 3,
+} fpt_member_kind;
+
+/**
+ * What the distance does around a member, for fpt_foot_member.nature. On a border of the domain only points of
+ * the domain count.
+ */
+typedef enum fpt_member_nature {
+    /**
+     * Nothing around is nearer.
+     */
+    FPT_NATURE_MINIMUM = 0,
+    /**
+     * Nothing around is farther.
+     */
+    FPT_NATURE_MAXIMUM = 1,
+    /**
+     * Nearer in some directions, farther in others.
+     */
+    FPT_NATURE_SADDLE = 2,
+    /**
+     * It does not change to second order, and samples around do not tell.
+     */
+    FPT_NATURE_FLAT = 3,
+} fpt_member_nature;
+
+/**
+ * The bits that go with normals and tangents.
+ */
+typedef enum fpt_normal_flag {
+    /**
+     * The side of the query cannot be told, or not from this foot alone: the query lies on the surface, beyond
+     * an open border, in the tangent plane, or at a fold; or the foot is a tie (FPT_FOOT_TIE) of a
+     * surface with borders, and another foot may tell another side. The sign is a guess.
+     */
+    FPT_NORMAL_AMBIGUOUS_SIDE = 1,
+    /**
+     * Several normals meet at a crease, a corner of patches or the tip of a cone: the one given is their mean,
+     * weighted by the angles between the tangents of each patch. Tangents: the tangent breaks.
+     */
+    FPT_NORMAL_CREASE = 2,
+    /**
+     * Taken as a limit from inside the domain, because the derivatives do not give it.
+     */
+    FPT_NORMAL_LIMIT = 4,
+    /**
+     * There is none, not even as a limit; its three numbers are NaN.
+     */
+    FPT_NORMAL_UNDEFINED = 8,
+} fpt_normal_flag;
+
+/**
+ * The bits of the changes along a path.
+ */
+typedef enum fpt_path_change {
+    /**
+     * The foot is on another branch of the shape: it does not follow from the one before while the query moves
+     * straight from point to point, or it rushes ahead more than 16 times as far as the query on the way.
+     */
+    FPT_PATH_JUMP = 1,
+    /**
+     * The number of turns changed in a closed direction.
+     */
+    FPT_PATH_SEAM_CROSSED = 2,
+    /**
+     * The foot is on a collapsed edge, or the step leads over one.
+     */
+    FPT_PATH_THROUGH_COLLAPSED = 4,
+    /**
+     * Another foot is as near within the accuracy; the one that continues the path was taken.
+     */
+    FPT_PATH_TIE = 8,
+} fpt_path_change;
+
+/**
  * A curve. Immutable: any number of threads may use one at a time. The search index is built on first
- * use, by one thread while the others wait. Made by fpt_curve_new, owned by the caller, released by
- * fpt_curve_free.
+ * use, by one thread while the others wait. Made by fpt_curve_new or fpt_curve_from_callback, owned by the
+ * caller, released by fpt_curve_free. A curve from a callback has no degree, knots, poles and weights:
+ * functions that need them return FPT_UNSUPPORTED.
  */
 typedef struct fpt_curve fpt_curve;
 
 /**
+ * A set of feet. Immutable: any number of threads may read one at a time. Owned by the caller, released by
+ * fpt_foot_set_free; it does not refer to the shape that it came from.
+ */
+typedef struct fpt_foot_set fpt_foot_set;
+
+/**
  * A surface. Immutable: any number of threads may use one at a time. The search index is built on first
- * use, by one thread while the others wait. Made by fpt_surface_new, owned by the caller, released by
- * fpt_surface_free.
+ * use, by one thread while the others wait. Made by fpt_surface_new or fpt_surface_from_callback, owned by
+ * the caller, released by fpt_surface_free. A surface from a callback has no degrees, knots, poles and
+ * weights: functions that need them return FPT_UNSUPPORTED.
  */
 typedef struct fpt_surface fpt_surface;
 
@@ -364,6 +466,93 @@ typedef struct fpt_surface_data {
 } fpt_surface_data;
 
 /**
+ * A curve given by a function: the input of fpt_curve_from_callback. The numbers are copied, `user` is kept.
+ *
+ * The bounds are the caller's word. With one of them answers are proven (extrema: with second_bound only), with
+ * neither every foot carries FPT_FOOT_NOT_PROVEN and lower_bound 0. A bound that is too small makes the proofs
+ * wrong.
+ */
+typedef struct fpt_curve_callback {
+    /**
+     * sizeof(fpt_curve_callback).
+     */
+    size_t struct_size;
+    /**
+     * Writes C, C', C'' at u, x,y,z each, up to order `derivatives` (0 to 2) to `out`, which has room for
+     * 3*(derivatives + 1) numbers, and returns the highest order that it has written: 0 for the point only;
+     * orders that are missing are taken from finite differences. Negative: the function fails at u; so does one
+     * that writes numbers that are not finite or beyond 1e100. Points must be accurate to 64 ulps of the
+     * largest coordinate of the curve, derivatives to 64 ulps of themselves and of that coordinate over the
+     * length of the domain. Called in the constructor and by every function that evaluates the handle, on any
+     * thread and on several at a time; must give the same numbers for the same u, and must not throw,
+     * longjmp, or free the handle.
+     */
+    int32_t (*evaluate)(void *user, double u, uint32_t derivatives, double *out);
+    /**
+     * Handed to both functions as it is.
+     */
+    void *user;
+    /**
+     * Called once with `user` when the handle is freed. NULL: nothing to release.
+     */
+    void (*release)(void *user);
+    /**
+     * Start and end of u.
+     */
+    double domain[2];
+    /**
+     * |C'| is at most this on the whole domain; 0: unknown.
+     */
+    double speed_bound;
+    /**
+     * |C''| is at most this on the whole domain; 0: unknown. Of a line, give any small positive number.
+     */
+    double second_bound;
+} fpt_curve_callback;
+
+/**
+ * A surface given by a function: the input of fpt_surface_from_callback. The numbers are copied, `user` is kept.
+ *
+ * The bounds are the caller's word. With one kind of them answers are proven (extrema: with second_bounds only), with
+ * neither every foot carries FPT_FOOT_NOT_PROVEN and lower_bound 0. A bound that is too small makes the proofs wrong. Bounds of the
+ * second derivatives prove fast; with those of the first alone points on the surface are proven fast, but
+ * distances off the surface only roughly.
+ */
+typedef struct fpt_surface_callback {
+    /**
+     * sizeof(fpt_surface_callback).
+     */
+    size_t struct_size;
+    /**
+     * Writes S; Su,Sv; Suu,Suv,Svv at (u,v), x,y,z each, up to the total order `derivatives` (0 to 2) to
+     * `out`, which has room for 3, 9 or 18 numbers, and returns the highest order that it has written: 0 for the
+     * point only. All else as for fpt_curve_callback.evaluate.
+     */
+    int32_t (*evaluate)(void *user, double u, double v, uint32_t derivatives, double *out);
+    /**
+     * Handed to both functions as it is.
+     */
+    void *user;
+    /**
+     * Called once with `user` when the handle is freed. NULL: nothing to release.
+     */
+    void (*release)(void *user);
+    /**
+     * Start and end of u, start and end of v.
+     */
+    double domain[4];
+    /**
+     * |Su| and |Sv| are at most these on the whole domain; both 0: unknown.
+     */
+    double speed_bounds[2];
+    /**
+     * |Suu|, |Suv| and |Svv| are at most these on the whole domain; all 0: unknown (of a plane, give any
+     * small positive number). A 0 beside a positive number is a bound.
+     */
+    double second_bounds[3];
+} fpt_surface_callback;
+
+/**
  * The answer to one query: 64 bytes, frozen.
  *
  * A query that was not reached when should_stop ended the call has NaN in u, v, point and distance,
@@ -401,6 +590,82 @@ typedef struct fpt_foot_point {
      */
     uint32_t iterations;
 } fpt_foot_point;
+
+/**
+ * Which stationary points to list. Fill it with fpt_extrema_options_init, then change what matters. All zero
+ * after struct_size is the default of everything. Grows at the end only.
+ */
+typedef struct fpt_extrema_options {
+    /**
+     * sizeof(fpt_extrema_options), set by fpt_extrema_options_init.
+     */
+    size_t struct_size;
+    /**
+     * Length, finite, >= 0. Places whose distances differ by less along the way between them may come out as one
+     * member. 0: 1e-10 x the diagonal of the shape's box.
+     */
+    double accuracy;
+    /**
+     * Length, finite, >= 0. Only points at most this far from the query. 0: all.
+     */
+    double radius;
+    /**
+     * At most this many, the nearest. 0: all.
+     */
+    size_t nearest;
+    /**
+     * 1: only minima (and members of nature flat); 0: all.
+     */
+    uint32_t minima_only;
+    /**
+     * Must be 0.
+     */
+    uint32_t reserved;
+    /**
+     * Restricts the answers to u0,u1,v0,v1 inside the domain; the ends of the restriction count as borders.
+     * All 0: the whole domain. On a curve only u0,u1 count.
+     */
+    double domain[4];
+    /**
+     * Most boxes; 0: the default, 20,000.
+     */
+    uint64_t budget;
+    /**
+     * Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED. NULL: never.
+     */
+    int (*should_stop)(void *user);
+    /**
+     * Handed to should_stop as it is.
+     */
+    void *user;
+} fpt_extrema_options;
+
+/**
+ * A member of a set: 104 bytes, frozen.
+ */
+typedef struct fpt_foot_member {
+    /**
+     * The representative. Its lower_bound is 0; FPT_FOOT_NOT_PROVEN: a place within the tolerance could be
+     * neither found nor excluded here.
+     */
+    struct fpt_foot_point foot;
+    /**
+     * Least and greatest u that belong to the member; they enclose, rounding included.
+     */
+    double u[2];
+    /**
+     * Least and greatest v; 0, 0 on a curve.
+     */
+    double v[2];
+    /**
+     * A value of fpt_member_kind.
+     */
+    uint32_t kind;
+    /**
+     * A value of fpt_member_nature.
+     */
+    uint32_t nature;
+} fpt_foot_member;
 
 #ifdef __cplusplus
 extern "C" {
@@ -472,8 +737,10 @@ FPT_MUST_USE fpt_status fpt_curve_domain(const struct fpt_curve *curve, double *
  * domain's end the one on the left.
  *
  * @param u            in the domain, else FPT_INVALID_ARGUMENT
- * @param derivatives  highest order d, at most 31; 0: the point only
- * @param out          3*(d + 1) numbers: C, C', C'', ... with x,y,z each
+ * @param derivatives  highest order d, at most 31; 0: the point only. More than 2 of a curve from a
+ *                     callback: FPT_UNSUPPORTED
+ * @param out          3*(d + 1) numbers: C, C', C'', ... with x,y,z each. Where a callback fails:
+ *                     FPT_INVALID_ARGUMENT
  * @since 0.1
  */
 FPT_MUST_USE
@@ -489,7 +756,8 @@ fpt_status fpt_curve_evaluate(const struct fpt_curve *curve,
  * @param count        may be 0
  * @param derivatives  highest order d, at most 31
  * @param out          count*3*(d + 1) numbers, the values of parameter i at i*3*(d + 1); must not
- *                     overlap `parameters`
+ *                     overlap `parameters`. Where a callback fails: FPT_INVALID_ARGUMENT, the values
+ *                     before are written
  * @since 0.1
  */
 FPT_MUST_USE
@@ -552,7 +820,8 @@ fpt_status fpt_curve_weights(const struct fpt_curve *curve,
 
 /**
  * The box of the poles that act on the domain, in which the curve lies. Its diagonal is what the default
- * tolerance and accuracy are relative to.
+ * tolerance and accuracy are relative to. Of a curve from a callback: the box of samples, which it may
+ * leave between them.
  *
  * @param out_box  6 numbers: least x,y,z, then greatest x,y,z
  * @since 0.1
@@ -562,7 +831,7 @@ fpt_status fpt_curve_box(const struct fpt_curve *curve,
                          double *out_box);
 
 /**
- * Whether the curve has weights that differ: 1 or 0.
+ * Whether the curve has weights that differ: 1 or 0. 0 for a curve from a callback.
  * @since 0.1
  */
 FPT_MUST_USE
@@ -614,9 +883,10 @@ FPT_MUST_USE fpt_status fpt_surface_domain(const struct fpt_surface *surface, do
  *
  * @param u            in the domain, else FPT_INVALID_ARGUMENT
  * @param v            in the domain, else FPT_INVALID_ARGUMENT
- * @param derivatives  highest total order d, at most 31; 0: the point only
+ * @param derivatives  highest total order d, at most 31; 0: the point only. More than 2 of a surface
+ *                     from a callback: FPT_UNSUPPORTED
  * @param out          3*(d + 1)*(d + 2)/2 numbers, order by order: S; Su,Sv; Suu,Suv,Svv; ... with
- *                     x,y,z each
+ *                     x,y,z each. Where a callback fails: FPT_INVALID_ARGUMENT
  * @since 0.1
  */
 FPT_MUST_USE
@@ -635,7 +905,8 @@ fpt_status fpt_surface_evaluate(const struct fpt_surface *surface,
  * @param count        pairs; may be 0
  * @param derivatives  highest total order d, at most 31
  * @param out          count*n numbers with n = 3*(d + 1)*(d + 2)/2, the values of pair i at i*n; must
- *                     not overlap `parameters`
+ *                     not overlap `parameters`. Where a callback fails: FPT_INVALID_ARGUMENT, the
+ *                     values before are written
  * @since 0.1
  */
 FPT_MUST_USE
@@ -732,7 +1003,8 @@ fpt_status fpt_surface_weights(const struct fpt_surface *surface,
 
 /**
  * The box of the poles that act on the domain, in which the surface lies. Its diagonal is what the default
- * tolerance and accuracy are relative to.
+ * tolerance and accuracy are relative to. Of a surface from a callback: the box of samples, which it may
+ * leave between them.
  *
  * @param out_box  6 numbers: least x,y,z, then greatest x,y,z
  * @since 0.1
@@ -742,7 +1014,7 @@ fpt_status fpt_surface_box(const struct fpt_surface *surface,
                            double *out_box);
 
 /**
- * Whether the surface has weights that differ: 1 or 0.
+ * Whether the surface has weights that differ: 1 or 0. 0 for a surface from a callback.
  * @since 0.1
  */
 FPT_MUST_USE
@@ -784,6 +1056,40 @@ fpt_status fpt_surface_collapsed_edges(const struct fpt_surface *surface,
  */
 FPT_MUST_USE
 fpt_status fpt_surface_prepare(const struct fpt_surface *surface);
+
+/**
+ * Makes a curve from a function. It is used like any other curve; functions that need degree, knots, poles
+ * or weights return FPT_UNSUPPORTED. A query looks at 20,000 boxes of parameters by default when a bound is
+ * given (a preimage at 100,000), at 2,000 when there is none; finite differences use steps of 2^-17 of the domain for first
+ * derivatives and for derivatives of given ones, 2^-13 for second differences of points, one-sided at the
+ * ends. The function is called 129 times or more, for the box and to see whether the curve is closed.
+ *
+ * @param callback  the function and what is known about it. After a failure nothing of it is kept and
+ *                  release is not called
+ * @param out       the handle; release it with fpt_curve_free
+ * @return FPT_INVALID_ARGUMENT for a domain that is empty, not finite or too narrow for its doubles, for a
+ *         bound that is negative or not finite, or when the function fails at all samples
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_from_callback(const struct fpt_curve_callback *callback,
+                                   struct fpt_curve **out);
+
+/**
+ * Makes a surface from a function. It is used like any other surface; functions that need degrees, knots,
+ * poles or weights return FPT_UNSUPPORTED. Budget and finite differences are those of fpt_curve_from_callback. The
+ * function is called 625 times or more, for the box, for closed directions and collapsed edges.
+ *
+ * @param callback  the function and what is known about it. After a failure nothing of it is kept and
+ *                  release is not called
+ * @param out       the handle; release it with fpt_surface_free
+ * @return FPT_INVALID_ARGUMENT for a domain that is empty, not finite or too narrow for its doubles, for a
+ *         bound that is negative or not finite, or when the function fails at all samples
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_from_callback(const struct fpt_surface_callback *callback,
+                                     struct fpt_surface **out);
 
 /**
  * The nearest point of the curve for each query point, with a proven lower bound of the distance.
@@ -858,6 +1164,439 @@ fpt_status fpt_surface_invert(const struct fpt_surface *surface,
                               size_t count,
                               const struct fpt_query_options *options,
                               struct fpt_foot_point *out);
+
+/**
+ * Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.
+ * Does nothing when `options` is NULL or struct_size is smaller than a size_t.
+ * @since 0.1
+ */
+void fpt_extrema_options_init(struct fpt_extrema_options *options, size_t struct_size);
+
+/**
+ * All parameters of a curve whose point lies within a tolerance of a point, with proof that none is missing.
+ *
+ * Isolated parameters are members of kind point (a closed curve's seam gives two, a self-intersection as many as
+ * branches), spans without length are arcs. Members come in the order of u.
+ *
+ * @param point      3 finite numbers
+ * @param tolerance  length, finite, >= 0; 0: 1e-7 x the diagonal of the curve's box. Never less than the rounding
+ *                   of curve and point
+ * @param options    domain, budget (0: 20,000 boxes; a shape from a callback: 100,000), should_stop and user
+ *                   count; NULL: the defaults
+ * @param out        the set; release it with fpt_foot_set_free. Empty when nothing is within the tolerance
+ * @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided intervals; of a curve from a
+ *         callback without the bounds that it takes, always, with the whole domain undecided
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_preimage(const struct fpt_curve *curve,
+                              const double *point,
+                              double tolerance,
+                              const struct fpt_query_options *options,
+                              struct fpt_foot_set **out);
+
+/**
+ * All parameters of a surface whose point lies within a tolerance of a point, with proof that none is missing.
+ *
+ * A point on a seam has two members (at a corner of two seams four), a self-intersection as many as branches; collapsed
+ * edges and strips without width are arcs. Members come in the order of u, then v, so that the canonical one of a
+ * seam is first.
+ *
+ * @param point      3 finite numbers
+ * @param tolerance  length, finite, >= 0; 0: 1e-7 x the diagonal of the surface's box. Never less than the rounding
+ *                   of surface and point
+ * @param options    domain, budget (0: 20,000 boxes; a shape from a callback: 100,000), should_stop and user
+ *                   count; NULL: the defaults
+ * @param out        the set; release it with fpt_foot_set_free. Empty when nothing is within the tolerance
+ * @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided boxes; of a surface from a
+ *         callback without the bounds that it takes, always, with the whole domain undecided
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_preimage(const struct fpt_surface *surface,
+                                const double *point,
+                                double tolerance,
+                                const struct fpt_query_options *options,
+                                struct fpt_foot_set **out);
+
+/**
+ * All points of a curve where the distance from a point is stationary, with proof that none is missing: nearest first.
+ *
+ * Ends of the curve (not of a closed one) and of a restriction count: minimum or maximum among the points of the
+ * domain. At a break of the tangent the distance must rise or fall to both sides.
+ *
+ * @param point    3 finite numbers
+ * @param options  NULL: the defaults
+ * @param out      the set; release it with fpt_foot_set_free
+ * @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided intervals; of a curve from a
+ *         callback without the bounds that it takes, always, with the whole domain undecided
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_extrema(const struct fpt_curve *curve,
+                             const double *point,
+                             const struct fpt_extrema_options *options,
+                             struct fpt_foot_set **out);
+
+/**
+ * All points of a surface where the distance from a point is stationary, with proof that none is missing: nearest first.
+ *
+ * Inside: minima, maxima, saddles. On the border of the domain (not on seams) and of a restriction: points where
+ * the distance is stationary along the border, and corners; they are minimum, maximum or saddle among the points of
+ * the domain. On creases: points where it is stationary along the crease and rises or falls to both sides. A collapsed
+ * edge counts when it is a minimum or maximum. Continua (the axis of a surface of revolution, the centre of a
+ * sphere) are arcs or regions with FPT_FOOT_CONTINUUM.
+ *
+ * @param point    3 finite numbers
+ * @param options  NULL: the defaults
+ * @param out      the set; release it with fpt_foot_set_free
+ * @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided boxes; of a surface from a
+ *         callback without the bounds that it takes, always, with the whole domain undecided
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_extrema(const struct fpt_surface *surface,
+                               const double *point,
+                               const struct fpt_extrema_options *options,
+                               struct fpt_foot_set **out);
+
+/**
+ * The number of members.
+ * @since 0.1
+ */
+FPT_MUST_USE fpt_status fpt_foot_set_count(const struct fpt_foot_set *set, size_t *out_count);
+
+/**
+ * A member.
+ *
+ * @param index  below the count, else FPT_INVALID_ARGUMENT
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_foot_set_get(const struct fpt_foot_set *set,
+                            size_t index,
+                            struct fpt_foot_member *out);
+
+/**
+ * The number of boxes that are undecided: 0 for a complete set.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_foot_set_undecided_count(const struct fpt_foot_set *set,
+                                        size_t *out_count);
+
+/**
+ * A box that is undecided: more members may lie in it.
+ *
+ * @param index   below the count, else FPT_INVALID_ARGUMENT
+ * @param out_uv  4 numbers: start and end of u, start and end of v (0, 0 on a curve)
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_foot_set_undecided_get(const struct fpt_foot_set *set,
+                                      size_t index,
+                                      double *out_uv);
+
+/**
+ * Releases a set. NULL is fine. No other call may use the handle during or after this one.
+ * @since 0.1
+ */
+void fpt_foot_set_free(struct fpt_foot_set *set);
+
+/**
+ * All parameters of a curve whose point lies within a tolerance of a line, or of a part of it (a ray), with proof that
+ * none is missing, in the order along the line. The distance of a member is that from the line.
+ *
+ * @param origin     3 finite numbers: a point of the line
+ * @param direction  3 finite numbers, not all 0; its length does not matter
+ * @param reach      2 numbers: least and greatest length along the direction from the origin, infinities allowed (a ray: 0
+ *                   and infinity); NULL: the whole line
+ * @param tolerance  length, finite, >= 0; 0: 1e-7 x the diagonal of the curve's box
+ * @param options    as for fpt_curve_preimage
+ * @param out        the set; release it with fpt_foot_set_free
+ * @return as fpt_curve_preimage
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_on_line(const struct fpt_curve *curve,
+                             const double *origin,
+                             const double *direction,
+                             const double *reach,
+                             double tolerance,
+                             const struct fpt_query_options *options,
+                             struct fpt_foot_set **out);
+
+/**
+ * All parameters of a surface whose point lies within a tolerance of a line, or of a part of it (a ray), with proof
+ * that none is missing, in the order along the line. The distance of a member is that from the line.
+ *
+ * Crossings and touching points are members of kind point; where the line runs in the surface along a parameter
+ * line the member is an arc.
+ *
+ * @param origin     3 finite numbers: a point of the line
+ * @param direction  3 finite numbers, not all 0; its length does not matter
+ * @param reach      2 numbers: least and greatest length along the direction from the origin, infinities allowed (a ray: 0
+ *                   and infinity); NULL: the whole line
+ * @param tolerance  length, finite, >= 0; 0: 1e-7 x the diagonal of the surface's box
+ * @param options    as for fpt_surface_preimage
+ * @param out        the set; release it with fpt_foot_set_free
+ * @return as fpt_surface_preimage
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_on_line(const struct fpt_surface *surface,
+                               const double *origin,
+                               const double *direction,
+                               const double *reach,
+                               double tolerance,
+                               const struct fpt_query_options *options,
+                               struct fpt_foot_set **out);
+
+/**
+ * The point of a curve on the line through each query point along a direction, to either side, that is nearest to the
+ * query point.
+ *
+ * A record has distance = |query - point|, and lower_bound: nothing of the curve within the tolerance of the line
+ * is nearer. Where the line misses the curve the record has FPT_FOOT_NOT_ON_SHAPE, NaN in u, v and point, and an infinite
+ * distance. FPT_FOOT_NOT_PROVEN with FPT_FOOT_BUDGET: parts of the curve were not decided.
+ *
+ * @param points     as for fpt_curve_closest
+ * @param count      as for fpt_curve_closest
+ * @param direction  3 finite numbers, not all 0; its length does not matter
+ * @param options    tolerance: how far from the line counts as on it (0: 1e-7 x the diagonal of the curve's box);
+ *                   hints, method, scope and trace are not used; NULL: the defaults
+ * @param out        as for fpt_curve_closest
+ * @return as fpt_curve_closest
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_project(const struct fpt_curve *curve,
+                             const double *points,
+                             size_t count,
+                             const double *direction,
+                             const struct fpt_query_options *options,
+                             struct fpt_foot_point *out);
+
+/**
+ * The point of a surface on the line through each query point along a direction, to either side, that is nearest to the
+ * query point: as fpt_curve_project.
+ *
+ * @param points     as for fpt_surface_closest
+ * @param count      as for fpt_surface_closest
+ * @param direction  3 finite numbers, not all 0; its length does not matter
+ * @param options    as for fpt_curve_project
+ * @param out        as for fpt_surface_closest
+ * @return as fpt_surface_closest
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_project(const struct fpt_surface *surface,
+                               const double *points,
+                               size_t count,
+                               const double *direction,
+                               const struct fpt_query_options *options,
+                               struct fpt_foot_point *out);
+
+/**
+ * The unit normal of the surface at each foot, in the direction of Su x Sv, and on which side of the surface the
+ * query lies.
+ *
+ * At a crease, a corner of patches or the tip of a cone the normal is the mean of the patches' normals weighted by
+ * the angles of the patches there; with it, other than with the normal of one patch, the sign is right
+ * wherever the surface does not cross itself near the foot. At collapsed edges and where derivatives vanish or are
+ * parallel it is a limit (FPT_NORMAL_LIMIT). For a closed surface the sign tells inside from outside.
+ *
+ * @param points      x,y,z of the query of each foot, packed; NULL: normals only, then `out_signed` must be NULL
+ * @param feet        `count` records, as the query functions give them, of this surface. NaN parameters have no
+ *                    normal; parameters outside the domain are FPT_INVALID_ARGUMENT
+ * @param count       may be 0
+ * @param out_normals 3*count numbers; NaN where there is no normal (FPT_NORMAL_UNDEFINED)
+ * @param out_signed  `count` numbers or NULL: |query - foot| where the query is on the normal's side, else
+ *                    -|query - foot|; without a normal positive, for a bad query NaN
+ * @param out_flags   `count` numbers or NULL: sums of fpt_normal_flag values
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_normals(const struct fpt_surface *surface,
+                               const double *points,
+                               const struct fpt_foot_point *feet,
+                               size_t count,
+                               double *out_normals,
+                               double *out_signed,
+                               uint32_t *out_flags);
+
+/**
+ * The unit tangent of the curve at each foot, in the direction of growing u. Where the derivative vanishes it is that of
+ * the first derivative that does not (FPT_NORMAL_LIMIT); where the tangent breaks (corners, cusps, the seam
+ * of a closed curve) it is that of the piece above, at the end of the domain of the one below (FPT_NORMAL_CREASE).
+ *
+ * @param feet         `count` records of this curve. NaN parameters have no tangent; parameters outside the domain
+ *                     are FPT_INVALID_ARGUMENT
+ * @param count        may be 0
+ * @param out_tangents 3*count numbers; NaN where there is none (FPT_NORMAL_UNDEFINED)
+ * @param out_flags    `count` numbers or NULL: sums of fpt_normal_flag values
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_tangents(const struct fpt_curve *curve,
+                              const struct fpt_foot_point *feet,
+                              size_t count,
+                              double *out_tangents,
+                              uint32_t *out_flags);
+
+/**
+ * The curve and its derivatives on one side of a parameter: they differ at knots only.
+ *
+ * @param u            in the domain, else FPT_INVALID_ARGUMENT
+ * @param side         -1: the piece below; +1: the piece above; 0: as fpt_curve_evaluate, which is the piece above.
+ *                     At an end of the domain every side is the piece inside, on closed curves too
+ * @param derivatives  highest order d, at most 31; 0: the point only
+ * @param out          3*(d + 1) numbers: C, C', C'', ... with x,y,z each. Below a knot C may differ from that of
+ *                     fpt_curve_evaluate by rounding
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_evaluate_sided(const struct fpt_curve *curve,
+                                    double u,
+                                    int32_t side,
+                                    uint32_t derivatives,
+                                    double *out);
+
+/**
+ * The surface and its partial derivatives on one side in each direction: they differ at knot lines only.
+ *
+ * @param u            in the domain, else FPT_INVALID_ARGUMENT
+ * @param v            in the domain, else FPT_INVALID_ARGUMENT
+ * @param side_u       -1: the piece below u; +1: the piece above; 0: as fpt_surface_evaluate, which is the piece
+ *                     above. At an end of the domain every side is the piece inside, in closed directions too
+ * @param side_v       the same in v
+ * @param derivatives  highest total order d, at most 31; 0: the point only
+ * @param out          3*(d + 1)*(d + 2)/2 numbers, as for fpt_surface_evaluate. Below a knot the point may differ from
+ *                     that of fpt_surface_evaluate by rounding
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_evaluate_sided(const struct fpt_surface *surface,
+                                      double u,
+                                      double v,
+                                      int32_t side_u,
+                                      int32_t side_v,
+                                      uint32_t derivatives,
+                                      double *out);
+
+/**
+ * How well each foot fixes its parameter: how far u may move while the point moves by at most the accuracy.
+ *
+ * @param feet      `count` records of this curve; NaN parameters give NaN
+ * @param count     may be 0
+ * @param accuracy  length, finite, >= 0; 0: 1e-10 x the diagonal of the curve's box
+ * @param out       `count` numbers: the greater step of both directions, right within a factor of two; at most what
+ *                  the domain leaves, on a closed curve its length
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_uncertainty(const struct fpt_curve *curve,
+                                 const struct fpt_foot_point *feet,
+                                 size_t count,
+                                 double accuracy,
+                                 double *out);
+
+/**
+ * How well each foot fixes its parameters: how far u and v may move (together) while the point moves by at most the
+ * accuracy. Near a regular point these are the half extents of an ellipse; at cusps they are larger, and at a collapsed
+ * edge the parameter along it is free.
+ *
+ * @param feet      `count` records of this surface; NaN parameters give NaN
+ * @param count     may be 0
+ * @param accuracy  length, finite, >= 0; 0: 1e-10 x the diagonal of the surface's box
+ * @param out       2*count numbers: for u and for v the greater step of both directions, right within a factor of
+ *                  two; at most what the domain leaves, in a closed direction its length
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_uncertainty(const struct fpt_surface *surface,
+                                   const struct fpt_foot_point *feet,
+                                   size_t count,
+                                   double accuracy,
+                                   double *out);
+
+/**
+ * The parameter that continues a path on a closed curve: u plus the whole number of turns (lengths of the domain) that
+ * brings it nearest to the previous one; of two as near the lesser. On an open curve u itself.
+ *
+ * @param previous  the unwrapped parameter before; finite, at most 1e9 turns away
+ * @param u         in the domain, else FPT_INVALID_ARGUMENT
+ * @param out_u     the unwrapped parameter
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_unwrap(const struct fpt_curve *curve,
+                            double previous,
+                            double u,
+                            double *out_u);
+
+/**
+ * The parameters that continue a path on a surface: in a closed direction plus the whole number of turns that brings the
+ * parameter nearest to the previous one (of two as near the lesser), in an open one as they are.
+ *
+ * @param previous  2 numbers: the unwrapped parameters before; finite, at most 1e9 turns away
+ * @param uv        2 numbers in the domain, else FPT_INVALID_ARGUMENT
+ * @param out_uv    2 numbers: the unwrapped parameters
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_unwrap(const struct fpt_surface *surface,
+                              const double *previous,
+                              const double *uv,
+                              double *out_uv);
+
+/**
+ * The parameters of a polyline of points along the curve, as a path: each answer is that of fpt_curve_invert for the point
+ * alone, with the same distance, but where another foot is as near within the accuracy the one that continues the
+ * path is taken. A bad point is stepped over.
+ *
+ * @param points        as for fpt_curve_closest, in the order of the path
+ * @param count         as for fpt_curve_closest
+ * @param options       NULL: the defaults
+ * @param out           as for fpt_curve_closest
+ * @param out_unwrapped `count` numbers or NULL: u with whole turns of a closed curve, consecutive along the path; NaN
+ *                      for a bad point
+ * @param out_changes   `count` numbers or NULL: sums of fpt_path_change values, about the step to each point
+ * @return after FPT_CANCELLED `out` is as fpt_curve_closest leaves it, perhaps not yet joined; the other arrays have
+ *         no defined contents
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_path(const struct fpt_curve *curve,
+                          const double *points,
+                          size_t count,
+                          const struct fpt_query_options *options,
+                          struct fpt_foot_point *out,
+                          double *out_unwrapped,
+                          uint32_t *out_changes);
+
+/**
+ * The parameters of a polyline of points along the surface, as a path: as fpt_curve_path, and on a collapsed edge the
+ * parameter along it stays what it was before.
+ *
+ * @param points        as for fpt_surface_closest, in the order of the path
+ * @param count         as for fpt_surface_closest
+ * @param options       NULL: the defaults
+ * @param out           as for fpt_surface_closest
+ * @param out_unwrapped 2*count numbers or NULL: u, v with whole turns in closed directions, consecutive along the path;
+ *                      NaN for a bad point
+ * @param out_changes   `count` numbers or NULL: sums of fpt_path_change values, about the step to each point
+ * @return as fpt_curve_path
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_path(const struct fpt_surface *surface,
+                            const double *points,
+                            size_t count,
+                            const struct fpt_query_options *options,
+                            struct fpt_foot_point *out,
+                            double *out_unwrapped,
+                            uint32_t *out_changes);
 
 #ifdef __cplusplus
 }  // extern "C"

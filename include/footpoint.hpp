@@ -5,12 +5,14 @@
  * Every rule of footpoint.h holds here too: units, threads, lengths and order of the numbers. What differs:
  *   - a curve and a surface are released by their destructor; they move and do not copy;
  *   - a status that is not FPT_OK is thrown as footpoint::error, with the text of fpt_last_error();
- *   - array arguments are vectors of doubles whose lengths are checked before the call.
+ *   - array arguments are vectors of doubles whose lengths are checked before the call;
+ *   - FPT_BUDGET_EXHAUSTED is not thrown: the set that comes says so with is_complete().
  * Moved-from objects may be assigned to and destroyed; anything else throws FPT_NULL_ARGUMENT.
- * Callbacks in options must not throw.
+ * Callbacks in options must not throw; the functions of from_function may, that is a failure there.
  *
  *     footpoint::surface blade(3, 3, knots_u, knots_v, poles, weights);
  *     for (const fpt_foot_point &foot : blade.closest(points)) use(foot.u, foot.v, foot.distance);
+ *     for (const fpt_foot_member &member : blade.preimage({x, y, z})) use(member.foot.u, member.foot.v);
  */
 #ifndef FOOTPOINT_HPP
 #define FOOTPOINT_HPP
@@ -20,9 +22,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <iterator>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace footpoint {
@@ -58,8 +64,143 @@ struct query_options : fpt_query_options {
     }
 };
 
+/** fpt_curve_callback.evaluate without its user: u, derivatives, out. */
+using curve_function = std::function<int(double, std::uint32_t, double *)>;
+/** fpt_surface_callback.evaluate without its user: u, v, derivatives, out. */
+using surface_function = std::function<int(double, double, std::uint32_t, double *)>;
+
+/** fpt_extrema_options that begin as the defaults. */
+struct extrema_options : fpt_extrema_options {
+    extrema_options() noexcept : fpt_extrema_options() {
+        fpt_extrema_options_init(this, sizeof(fpt_extrema_options));
+    }
+};
+
+/** x,y,z of a point or direction. */
+using point = std::array<double, 3>;
+
+/** Least and greatest length along a line's direction; a ray has 0 and infinity. */
+using reach = std::array<double, 2>;
+
+/** The whole line. */
+inline constexpr reach whole_line{-std::numeric_limits<double>::infinity(),
+                                  std::numeric_limits<double>::infinity()};
+
+/** A set of feet: owner of an fpt_foot_set. */
+class foot_set {
+public:
+    /** Takes a handle over. */
+    explicit foot_set(fpt_foot_set *handle) noexcept : handle_(handle) {}
+
+    /** The handle, still owned here. */
+    const fpt_foot_set *get() const noexcept { return handle_.get(); }
+    /** The handle, owned by the caller from now on. */
+    fpt_foot_set *release() noexcept { return handle_.release(); }
+
+    std::size_t size() const {
+        std::size_t out = 0;
+        check(fpt_foot_set_count(get(), &out));
+        return out;
+    }
+    bool empty() const { return size() == 0; }
+
+    /** A member; an index beyond the size is thrown. */
+    fpt_foot_member operator[](std::size_t index) const {
+        fpt_foot_member out;
+        check(fpt_foot_set_get(get(), index, &out));
+        return out;
+    }
+
+    /** Boxes u0,u1,v0,v1 that the budget left undecided. */
+    std::vector<std::array<double, 4>> undecided() const {
+        std::size_t count = 0;
+        check(fpt_foot_set_undecided_count(get(), &count));
+        std::vector<std::array<double, 4>> out(count);
+        for (std::size_t i = 0; i < count; i++) check(fpt_foot_set_undecided_get(get(), i, out[i].data()));
+        return out;
+    }
+    /** Whether nothing is missing. */
+    bool is_complete() const {
+        std::size_t count = 0;
+        check(fpt_foot_set_undecided_count(get(), &count));
+        return count == 0;
+    }
+
+    /** Members one by one, as copies. Valid while the set lives where it is. */
+    class iterator {
+    public:
+        using iterator_category = std::input_iterator_tag;
+        using value_type = fpt_foot_member;
+        using difference_type = std::ptrdiff_t;
+        using pointer = void;
+        using reference = fpt_foot_member;
+
+        iterator(const foot_set *set, std::size_t index) noexcept : set_(set), index_(index) {}
+        fpt_foot_member operator*() const { return (*set_)[index_]; }
+        iterator &operator++() noexcept {
+            index_++;
+            return *this;
+        }
+        iterator operator++(int) noexcept {
+            iterator before = *this;
+            index_++;
+            return before;
+        }
+        bool operator==(const iterator &other) const noexcept { return index_ == other.index_; }
+        bool operator!=(const iterator &other) const noexcept { return index_ != other.index_; }
+
+    private:
+        const foot_set *set_;
+        std::size_t index_;
+    };
+
+    iterator begin() const noexcept { return iterator(this, 0); }
+    iterator end() const { return iterator(this, size()); }
+
+private:
+    struct deleter {
+        void operator()(fpt_foot_set *handle) const noexcept { fpt_foot_set_free(handle); }
+    };
+
+    std::unique_ptr<fpt_foot_set, deleter> handle_;
+};
+
+/** Unit normals with sides, or unit tangents, one per foot. */
+struct directions {
+    /** x,y,z each; NaN where there is none. */
+    std::vector<double> vectors;
+    /** Signed distances of the queries; empty for tangents. */
+    std::vector<double> signed_distances;
+    /** Sums of fpt_normal_flag values. */
+    std::vector<std::uint32_t> flags;
+};
+
+/** A polyline of points on a shape, as a path. */
+struct path {
+    std::vector<fpt_foot_point> feet;
+    /** u, on a surface u,v per foot; NaN for a bad point. */
+    std::vector<double> unwrapped;
+    /** Sums of fpt_path_change values. */
+    std::vector<std::uint32_t> changes;
+};
+
 /** What the classes below share; not for callers. */
 namespace detail {
+
+/** Calls the function behind `user`; what it throws is a failure. */
+template <class Function, class... Arguments>
+std::int32_t called(void *user, Arguments... arguments) noexcept {
+    try {
+        return (*static_cast<Function *>(user))(arguments...);
+    } catch (...) {
+        return -1;
+    }
+}
+
+template <class Function>
+void released(void *user) noexcept {
+    delete static_cast<Function *>(user);
+}
 
 inline void require(bool holds, const char *text) {
     if (!holds) throw error(FPT_INVALID_ARGUMENT, text);
@@ -118,6 +259,42 @@ std::vector<fpt_foot_point> feet(query<Shape> ask, const Shape *shape, const std
     return out;
 }
 
+/** The set that a call made; one that is not complete is a set too. */
+template <class Call>
+foot_set set(Call call) {
+    fpt_foot_set *out = nullptr;
+    const fpt_status status = call(&out);
+    if (status != FPT_BUDGET_EXHAUSTED) check(status);
+    return foot_set(out);
+}
+
+template <class Shape>
+using projection = fpt_status (*)(const Shape *, const double *, std::size_t, const double *,
+                                  const fpt_query_options *, fpt_foot_point *);
+
+template <class Shape>
+std::vector<fpt_foot_point> projected(projection<Shape> ask, const Shape *shape, const std::vector<double> &points,
+                                      const point &direction, const fpt_query_options &options) {
+    std::vector<fpt_foot_point> out(point_count(points, options));
+    check(ask(shape, points.data(), out.size(), direction.data(), &options, out.data()));
+    return out;
+}
+
+template <class Shape>
+using walk = fpt_status (*)(const Shape *, const double *, std::size_t, const fpt_query_options *,
+                            fpt_foot_point *, double *, std::uint32_t *);
+
+template <class Shape>
+path joined(walk<Shape> ask, const Shape *shape, const std::vector<double> &points,
+            const fpt_query_options &options, std::size_t parameters) {
+    const std::size_t count = point_count(points, options);
+    path out{std::vector<fpt_foot_point>(count), std::vector<double>(parameters * count),
+             std::vector<std::uint32_t>(count)};
+    check(ask(shape, points.data(), count, &options, out.feet.data(), out.unwrapped.data(),
+              out.changes.data()));
+    return out;
+}
+
 } // namespace detail
 
 /** A curve: owner of an fpt_curve. */
@@ -133,6 +310,25 @@ public:
 
     /** Takes a handle over. */
     explicit curve(fpt_curve *handle) noexcept : handle_(handle) {}
+
+    /** A curve given by a function, as fpt_curve_from_callback; bounds of 0: unknown. The function is called on
+     *  any thread, on several at a time. */
+    static curve from_function(curve_function function, const std::array<double, 2> &domain,
+                               double speed_bound = 0, double second_bound = 0) {
+        auto kept = std::make_unique<curve_function>(std::move(function));
+        fpt_curve_callback callback{};
+        callback.struct_size = sizeof callback;
+        if (*kept) callback.evaluate = detail::called<curve_function, double, std::uint32_t, double *>;
+        callback.user = kept.get();
+        callback.release = detail::released<curve_function>;
+        for (std::size_t i = 0; i < 2; i++) callback.domain[i] = domain[i];
+        callback.speed_bound = speed_bound;
+        callback.second_bound = second_bound;
+        fpt_curve *out = nullptr;
+        check(fpt_curve_from_callback(&callback, &out));
+        kept.release();
+        return curve(out);
+    }
 
     /** The handle, still owned here. */
     const fpt_curve *get() const noexcept { return handle_.get(); }
@@ -158,6 +354,13 @@ public:
     std::vector<double> evaluate(double u, std::uint32_t derivatives = 0) const {
         std::vector<double> out(values(derivatives));
         check(fpt_curve_evaluate(get(), u, derivatives, out.data()));
+        return out;
+    }
+
+    /** The same of the piece below (-1) or above (+1) the parameter. */
+    std::vector<double> evaluate_sided(double u, std::int32_t side, std::uint32_t derivatives = 1) const {
+        std::vector<double> out(values(derivatives));
+        check(fpt_curve_evaluate_sided(get(), u, side, derivatives, out.data()));
         return out;
     }
 
@@ -191,6 +394,56 @@ public:
     void invert(const double *points, std::size_t count, const fpt_query_options *options,
                 fpt_foot_point *out) const {
         check(fpt_curve_invert(get(), points, count, options, out));
+    }
+
+    /** As fpt_curve_preimage. */
+    foot_set preimage(const point &where, double tolerance = 0,
+                      const fpt_query_options &options = query_options()) const {
+        return detail::set([&](fpt_foot_set **out) {
+            return fpt_curve_preimage(get(), where.data(), tolerance, &options, out);
+        });
+    }
+    /** As fpt_curve_extrema. */
+    foot_set extrema(const point &where, const fpt_extrema_options &options = extrema_options()) const {
+        return detail::set(
+            [&](fpt_foot_set **out) { return fpt_curve_extrema(get(), where.data(), &options, out); });
+    }
+    /** As fpt_curve_on_line. */
+    foot_set on_line(const point &origin, const point &direction, const reach &part = whole_line,
+                     double tolerance = 0, const fpt_query_options &options = query_options()) const {
+        return detail::set([&](fpt_foot_set **out) {
+            return fpt_curve_on_line(get(), origin.data(), direction.data(), part.data(), tolerance, &options, out);
+        });
+    }
+    /** As fpt_curve_project: one record per query point, x,y,z each. */
+    std::vector<fpt_foot_point> project(const std::vector<double> &points, const point &direction,
+                                        const fpt_query_options &options = query_options()) const {
+        return detail::projected<fpt_curve>(fpt_curve_project, get(), points, direction, options);
+    }
+
+    /** The points in the order of a path, joined, as fpt_curve_path. */
+    footpoint::path path(const std::vector<double> &points,
+                         const fpt_query_options &options = query_options()) const {
+        return detail::joined<fpt_curve>(fpt_curve_path, get(), points, options, 1);
+    }
+    /** u and the whole turns that bring it nearest to the previous one. */
+    double unwrap(double previous, double u) const {
+        double out = 0;
+        check(fpt_curve_unwrap(get(), previous, u, &out));
+        return out;
+    }
+
+    /** The unit tangent at each foot. */
+    directions tangents(const std::vector<fpt_foot_point> &feet) const {
+        directions out{std::vector<double>(3 * feet.size()), {}, std::vector<std::uint32_t>(feet.size())};
+        check(fpt_curve_tangents(get(), feet.data(), feet.size(), out.vectors.data(), out.flags.data()));
+        return out;
+    }
+    /** How far u may move while the point moves by the accuracy (0: the default), for each foot. */
+    std::vector<double> uncertainty(const std::vector<fpt_foot_point> &feet, double accuracy = 0) const {
+        std::vector<double> out(feet.size());
+        check(fpt_curve_uncertainty(get(), feet.data(), feet.size(), accuracy, out.data()));
+        return out;
     }
 
 private:
@@ -242,6 +495,26 @@ public:
     /** Takes a handle over. */
     explicit surface(fpt_surface *handle) noexcept : handle_(handle) {}
 
+    /** A surface given by a function, as fpt_surface_from_callback; bounds that are all 0: unknown. The function
+     *  is called on any thread, on several at a time. */
+    static surface from_function(surface_function function, const std::array<double, 4> &domain,
+                                 const std::array<double, 2> &speed_bounds = {},
+                                 const std::array<double, 3> &second_bounds = {}) {
+        auto kept = std::make_unique<surface_function>(std::move(function));
+        fpt_surface_callback callback{};
+        callback.struct_size = sizeof callback;
+        if (*kept) callback.evaluate = detail::called<surface_function, double, double, std::uint32_t, double *>;
+        callback.user = kept.get();
+        callback.release = detail::released<surface_function>;
+        for (std::size_t i = 0; i < 4; i++) callback.domain[i] = domain[i];
+        for (std::size_t i = 0; i < 2; i++) callback.speed_bounds[i] = speed_bounds[i];
+        for (std::size_t i = 0; i < 3; i++) callback.second_bounds[i] = second_bounds[i];
+        fpt_surface *out = nullptr;
+        check(fpt_surface_from_callback(&callback, &out));
+        kept.release();
+        return surface(out);
+    }
+
     /** The handle, still owned here. */
     const fpt_surface *get() const noexcept { return handle_.get(); }
     /** The handle, owned by the caller from now on. */
@@ -284,6 +557,14 @@ public:
         return out;
     }
 
+    /** The same of the piece below (-1) or above (+1) in each direction. */
+    std::vector<double> evaluate_sided(double u, double v, std::int32_t side_u, std::int32_t side_v,
+                                       std::uint32_t derivatives = 1) const {
+        std::vector<double> out(values(derivatives));
+        check(fpt_surface_evaluate_sided(get(), u, v, side_u, side_v, derivatives, out.data()));
+        return out;
+    }
+
     /** The values of evaluate for each pair u,v of `parameters`, one after the other. */
     std::vector<double> evaluate_many(const std::vector<double> &parameters,
                                       std::uint32_t derivatives = 0) const {
@@ -316,6 +597,59 @@ public:
     void invert(const double *points, std::size_t count, const fpt_query_options *options,
                 fpt_foot_point *out) const {
         check(fpt_surface_invert(get(), points, count, options, out));
+    }
+
+    /** As fpt_surface_preimage. */
+    foot_set preimage(const point &where, double tolerance = 0,
+                      const fpt_query_options &options = query_options()) const {
+        return detail::set([&](fpt_foot_set **out) {
+            return fpt_surface_preimage(get(), where.data(), tolerance, &options, out);
+        });
+    }
+    /** As fpt_surface_extrema. */
+    foot_set extrema(const point &where, const fpt_extrema_options &options = extrema_options()) const {
+        return detail::set(
+            [&](fpt_foot_set **out) { return fpt_surface_extrema(get(), where.data(), &options, out); });
+    }
+    /** As fpt_surface_on_line. */
+    foot_set on_line(const point &origin, const point &direction, const reach &part = whole_line,
+                     double tolerance = 0, const fpt_query_options &options = query_options()) const {
+        return detail::set([&](fpt_foot_set **out) {
+            return fpt_surface_on_line(get(), origin.data(), direction.data(), part.data(), tolerance, &options, out);
+        });
+    }
+    /** As fpt_surface_project: one record per query point, x,y,z each. */
+    std::vector<fpt_foot_point> project(const std::vector<double> &points, const point &direction,
+                                        const fpt_query_options &options = query_options()) const {
+        return detail::projected<fpt_surface>(fpt_surface_project, get(), points, direction, options);
+    }
+
+    /** The points in the order of a path, joined, as fpt_surface_path. */
+    footpoint::path path(const std::vector<double> &points,
+                         const fpt_query_options &options = query_options()) const {
+        return detail::joined<fpt_surface>(fpt_surface_path, get(), points, options, 2);
+    }
+    /** u, v and the whole turns that bring them nearest to the previous ones. */
+    std::array<double, 2> unwrap(const std::array<double, 2> &previous, const std::array<double, 2> &uv) const {
+        std::array<double, 2> out{};
+        check(fpt_surface_unwrap(get(), previous.data(), uv.data(), out.data()));
+        return out;
+    }
+
+    /** The unit normal at each foot and the signed distance of its query; packed points x,y,z, one per foot. */
+    directions normals(const std::vector<double> &points, const std::vector<fpt_foot_point> &feet) const {
+        detail::require(points.size() == 3 * feet.size(), "points: need x,y,z for each foot");
+        directions out{std::vector<double>(3 * feet.size()), std::vector<double>(feet.size()),
+                       std::vector<std::uint32_t>(feet.size())};
+        check(fpt_surface_normals(get(), points.data(), feet.data(), feet.size(), out.vectors.data(),
+                                  out.signed_distances.data(), out.flags.data()));
+        return out;
+    }
+    /** How far u and v may move while the point moves by the accuracy (0: the default), for each foot. */
+    std::vector<double> uncertainty(const std::vector<fpt_foot_point> &feet, double accuracy = 0) const {
+        std::vector<double> out(2 * feet.size());
+        check(fpt_surface_uncertainty(get(), feet.data(), feet.size(), accuracy, out.data()));
+        return out;
     }
 
 private:

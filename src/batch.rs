@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-use crate::closest::{FootPoint, Workspace};
+use crate::closest::FootPoint;
 use crate::error::Error;
 
 /// Queries in a tile: neighbours in the input share a tile and with it the caches; long enough for that, short
@@ -18,8 +18,8 @@ const TILE: usize = 128;
 /// How often the calling thread polls while it waits for the others.
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// The work of a batch: query number and workspace to record.
-pub type Work<'a> = &'a (dyn Fn(usize, &mut Workspace) -> FootPoint + Sync);
+/// The work of a batch: query number and workspace of the thread to record.
+pub type Work<'a, W> = &'a (dyn Fn(usize, &mut W) -> FootPoint + Sync);
 
 /// Asked on the calling thread with the number of queries done; true stops the batch.
 pub type Poll<'a> = &'a mut dyn FnMut(usize) -> bool;
@@ -38,7 +38,12 @@ struct Progress {
 /// # Errors
 /// [`Error::OutOfMemory`] before anything is written. [`Error::Cancelled`] when `poll` said so: records not
 /// reached are [`FootPoint::unreached`].
-pub fn run(out: &mut [FootPoint], threads: usize, work: Work, poll: Poll) -> Result<(), Error> {
+pub fn run<W: Default>(
+    out: &mut [FootPoint],
+    threads: usize,
+    work: Work<W>,
+    poll: Poll,
+) -> Result<(), Error> {
     let total = out.len();
     let wanted = if threads == 0 { cores() } else { threads };
     let threads = wanted.min(total.div_ceil(TILE)).max(1);
@@ -73,7 +78,7 @@ fn deal(out: &mut [FootPoint], threads: usize) -> Result<Vec<Hand<'_>>, Error> {
 
 /// One thread a hand, the calling one included. Hands that no thread has taken, because it could not be started or
 /// has not got so far, are left to the caller, which then polls until the last thread has ended.
-fn work_together(hands: Vec<Hand>, work: Work, progress: &Progress, poll: Poll) {
+fn work_together<W: Default>(hands: Vec<Hand>, work: Work<W>, progress: &Progress, poll: Poll) {
     let hands: Vec<Mutex<Option<Hand>>> =
         hands.into_iter().map(|hand| Mutex::new(Some(hand))).collect();
     let take = |k: usize| hands[k].lock().unwrap_or_else(PoisonError::into_inner).take();
@@ -101,8 +106,8 @@ fn work_together(hands: Vec<Hand>, work: Work, progress: &Progress, poll: Poll) 
     });
 }
 
-fn work_off(hand: Hand, work: Work, progress: &Progress, poll: Poll) {
-    let mut workspace = Workspace::default();
+fn work_off<W: Default>(hand: Hand, work: Work<W>, progress: &Progress, poll: Poll) {
+    let mut workspace = W::default();
     for (first, tile) in hand {
         if poll(progress.done.load(Ordering::Relaxed)) {
             progress.stop.store(true, Ordering::Relaxed);
@@ -124,6 +129,7 @@ fn cores() -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::closest::Workspace;
 
     fn numbered(i: usize, _: &mut Workspace) -> FootPoint {
         FootPoint { u: i as f64, ..FootPoint::unreached() }

@@ -16,7 +16,7 @@
 
 use crate::basis;
 use crate::error::Error;
-use crate::knots::{Knots, MAX_DEGREE, MAX_MAGNITUDE, copied};
+use crate::knots::{Knots, MAX_DEGREE, MAX_MAGNITUDE, Side, copied};
 
 pub(crate) mod insertion;
 
@@ -127,18 +127,24 @@ impl Curve {
     ///
     /// `out[0]` has the same bits as `evaluate(u)`, whatever `count` is; `count` is at most [`MAX_DEGREE`].
     pub fn derivatives(&self, u: f64, count: usize, out: &mut [[f64; 3]]) {
+        self.derivatives_on(u, Side::Above, count, out);
+    }
+
+    /// As [`Curve::derivatives`], of the piece on one side of a knot. Below a knot the point may differ from that of
+    /// [`Curve::evaluate`] by rounding.
+    pub fn derivatives_on(&self, u: f64, side: Side, count: usize, out: &mut [[f64; 3]]) {
         debug_assert!(self.knots.contains(u), "u = {u} is outside the domain");
-        let rows = count.min(self.degree()) + 1;
+        let (span, rows) = (self.knots.span_on(u, side), count.min(self.degree()) + 1);
         if rows * (self.degree() + 1) <= 32 {
-            self.derive(u, count, &mut [0.0; 32], out);
+            self.derive(span, u, count, &mut [0.0; 32], out);
         } else {
-            self.derive(u, count, &mut [0.0; ORDER * ORDER], out);
+            self.derive(span, u, count, &mut [0.0; ORDER * ORDER], out);
         }
     }
 
-    /// The work of [`Curve::derivatives`], with room for the basis functions in `basis`.
-    fn derive(&self, u: f64, count: usize, basis: &mut [f64], out: &mut [[f64; 3]]) {
-        let (degree, span) = (self.degree(), self.knots.span(u));
+    /// The work of [`Curve::derivatives_on`], with room for the basis functions in `basis`.
+    fn derive(&self, span: usize, u: f64, count: usize, basis: &mut [f64], out: &mut [[f64; 3]]) {
+        let degree = self.degree();
         let highest = count.min(degree);
         basis::derivatives(&self.knots, span, u, highest, basis);
         let reference = self.reference(span, &basis[..=degree]);

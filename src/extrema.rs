@@ -26,7 +26,8 @@ mod curve;
 
 mod surface;
 
-use crate::bounds::Vector;
+use crate::bounds::{Vector, norm, sub};
+use crate::closest::FootPoint;
 use crate::set::{FootSet, Kind, Member, Nature};
 
 /// What is asked for. The default is every stationary point.
@@ -50,6 +51,11 @@ pub struct ExtremaOptions {
 /// Boxes that one request may take by default.
 pub const DEFAULT_BUDGET: u64 = 20_000;
 
+/// Iterations that give a zero its last digits, and the longest step they may take (of a piece): longer ones say that the
+/// polynomials and the shape itself do not agree.
+const POLISH_STEPS: usize = 6;
+const LONGEST_POLISH: f64 = 1e-4;
+
 /// Largest coordinate of a query, in the size of the shape, whose products cannot overflow.
 const GREATEST_REACH: f64 = 1e60;
 
@@ -63,7 +69,7 @@ impl ExtremaOptions {
     }
 
     /// Puts the nearest first, and leaves what was asked for.
-    fn finish(&self, mut members: Vec<Member>, undecided: Vec<[f64; 4]>) -> FootSet {
+    pub(crate) fn finish(&self, mut members: Vec<Member>, undecided: Vec<[f64; 4]>) -> FootSet {
         let radius = self.radius();
         members.retain(|member| member.foot.distance.is_nan() || member.foot.distance <= radius);
         if self.minima_only {
@@ -94,12 +100,55 @@ struct Candidate {
 enum Source {
     /// The gradient vanishes.
     Inside,
+    /// The gradient vanishes at the end of a piece, perhaps only by the allowance for rounding: where the zero lies
+    /// beyond, the neighbour has it inside.
+    OnEnd,
     /// A collapsed edge.
     Collapsed,
     /// The derivative along a border or crease vanishes, or it is a corner.
     Border,
     /// The distance stays within the accuracy on the area.
     Flat,
+}
+
+/// A candidate that has become a member.
+struct Taken {
+    candidate: Candidate,
+    point: Vector,
+    distance: f64,
+}
+
+/// Parameters nearer to each other than this share of the range are beside each other.
+const BESIDE: f64 = 1e-7;
+
+/// Points nearer to each other than this share of the diagonal may be one point seen from two pieces.
+const NEAR: f64 = 1e-8;
+
+impl Taken {
+    fn new(member: &Member, candidate: Candidate) -> Self {
+        Self { candidate, point: member.foot.point, distance: member.foot.distance }
+    }
+
+    /// Whether another candidate, whose foot this is, means the same place. `holds(area, at)` tells whether a place lies
+    /// in an area, `beside(at)` whether it is next to the other one; both across seams too.
+    ///
+    /// The box in which a zero is alone may be large: two zeros are one only if each lies in the other's box, and their
+    /// points are near too (corners may be near in their parameters only), or if they are beside each other. A flat area takes in what lies in it.
+    fn is_same(
+        &self,
+        other: &Candidate,
+        foot: &FootPoint,
+        (diagonal, accuracy): (f64, f64),
+        holds: impl Fn(&[f64; 4], [f64; 2]) -> bool,
+        beside: impl Fn([f64; 2]) -> bool,
+    ) -> bool {
+        let within = holds(&self.candidate.area, other.at);
+        if self.candidate.source == Source::Flat {
+            return within && (foot.distance - self.distance).abs() <= 8.0 * accuracy;
+        }
+        let near = norm(sub(foot.point, self.point)) <= NEAR * diagonal + accuracy;
+        near && ((within && holds(&other.area, self.candidate.at)) || beside(self.candidate.at))
+    }
 }
 
 /// Squared distances within the accuracy of that at distance `d`: how much they may differ.

@@ -7,7 +7,10 @@
 //! ```text
 //!   C call -> guard -> arguments (pointers, counts, strides)   memory.rs, limits.rs
 //!                   -> options, records (struct layouts)       options.rs, records.rs
-//!                   -> Curve, Surface, closest, batch          curve.rs, surface.rs, query.rs, sets.rs
+//!                   -> spline or function behind a handle      form.rs
+//!                   -> Curve, Surface, closest, batch          curve.rs, surface.rs, callback.rs,
+//!                                                              query.rs, sets.rs, lines.rs
+//!                   -> normal, unwrap                          normals.rs, path.rs
 //!          <- fpt_status, text of a failure for fpt_last_error
 //! ```
 //!
@@ -22,10 +25,15 @@ mod memory;
 mod limits;
 mod options;
 mod records;
+mod form;
 mod curve;
 mod surface;
+mod callback;
 mod query;
 mod sets;
+mod lines;
+mod normals;
+mod path;
 #[cfg(test)]
 mod tests;
 
@@ -249,7 +257,7 @@ pub extern "C" fn fpt_panic_test(threads: u32) -> fpt_status {
         let unreached = crate::closest::FootPoint::unreached();
         let mut out = [unreached; 1024];
         // Tiles of 128 records go round the threads: this one lies in the second.
-        let work = |i, _: &mut _| {
+        let work = |i, _: &mut ()| {
             if i == 200 { panic!("record {i} panics on purpose") } else { unreached }
         };
         Ok(crate::batch::run(&mut out, threads as usize, &work, &mut |_| false)?)

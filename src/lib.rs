@@ -35,6 +35,12 @@ pub mod extrema;
 
 pub mod preimage;
 
+pub mod unwrap;
+
+pub mod normal;
+
+pub mod callback;
+
 pub mod batch;
 
 mod ffi;

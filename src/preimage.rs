@@ -26,12 +26,19 @@ mod curve;
 
 mod surface;
 
+mod project;
+
 use crate::bounds::{HALF_ULP, Vector, add, dot, norm, scaled, sub};
 use crate::closest::{FootPoint, QueryOptions, flag};
 use crate::error::Error;
 use crate::index::Frame;
 use crate::set::{FootSet, Kind, Member, Nature, joined, touch};
 use walk::Part;
+
+pub use project::ProjectMemory;
+
+/// Largest coordinate of a target, in the size of the shape, whose products cannot overflow.
+const GREATEST_REACH: f64 = 1e60;
 
 /// Boxes that one request may take by default.
 pub const DEFAULT_BUDGET: u64 = 20_000;
@@ -122,6 +129,14 @@ impl Target {
         self.direction().map_or(norm(r), |d| norm(sub(r, scaled(d, dot(r, d)))))
     }
 
+    /// The query, or the point from which lengths along the line count.
+    fn origin(&self) -> Vector {
+        match self {
+            Self::Point(point) => *point,
+            Self::Line(line) => line.origin,
+        }
+    }
+
     /// Length along the line; 0 for a point.
     fn along(&self, point: Vector) -> f64 {
         match self {
@@ -174,6 +189,8 @@ trait Place {
     fn record(&self, at: [f64; 2]) -> FootPoint;
     /// A better foot near a place, inside an area.
     fn refine(&self, at: [f64; 2], area: [f64; 4]) -> [f64; 2];
+    /// Parameters at which pieces begin, in direction 0 (u) or 1 (v).
+    fn knots(&self, k: usize) -> Vec<f64>;
     /// Which parameters vary on an area around a place without moving the point.
     fn flat(&self, at: [f64; 2], area: [f64; 4]) -> [bool; 2];
 }
@@ -218,14 +235,13 @@ fn best_place(best: &Part, area: [f64; 4], place: &impl Place, request: &Request
 
 fn member(at: [f64; 2], area: [f64; 4], place: &impl Place, request: &Request) -> Member {
     let flat = place.flat(at, area);
-    // Along an arc every place is as good: its start is the canonical one.
-    let at = [0, 1].map(|k| if flat[k] { area[2 * k] } else { at[k] });
+    let at = canonical(at, area, flat, place, request);
     let mut foot = place.record(at);
     foot.distance = request.target.distance(foot.point);
     if foot.distance > request.tolerance + request.floor {
         foot.flags |= flag::NOT_PROVEN;
     }
-    if flat != [false; 2] {
+    if flat != [false; 2] && foot.flags & flag::COLLAPSED == 0 {
         foot.flags |= flag::CONTINUUM;
     }
     let kind = match flat {
@@ -237,6 +253,30 @@ fn member(at: [f64; 2], area: [f64; 4], place: &impl Place, request: &Request) -
     let [u0, u1, v0, v1] = area;
     let nature = if flat == [false; 2] { Nature::Minimum } else { Nature::Flat };
     Member { foot, u: [u0, u1], v: [v0, v1], kind, nature }
+}
+
+/// Along an arc every place is as good but for its ends, which the tolerance moves: the first of start and knots that is as
+/// near as the foot.
+fn canonical(
+    at: [f64; 2],
+    area: [f64; 4],
+    flat: [bool; 2],
+    place: &impl Place,
+    request: &Request,
+) -> [f64; 2] {
+    let mut at = at;
+    let limit = request.target.distance(place.point(at)) + request.floor;
+    for k in (0..2).filter(|&k| flat[k]) {
+        let (low, high) = (area[2 * k], area[2 * k + 1]);
+        let near = |x: f64| {
+            let mut there = at;
+            there[k] = x;
+            request.target.distance(place.point(there)) <= limit
+        };
+        let knots = place.knots(k).into_iter().filter(|x| (low..=high).contains(x));
+        at[k] = std::iter::once(low).chain(knots).find(|&x| near(x)).unwrap_or(at[k]);
+    }
+    at
 }
 
 /// A set without a single decision, for queries beyond all reach.

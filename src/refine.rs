@@ -60,6 +60,11 @@ impl Method {
 /// functions, whose last bits differ between systems. Never longer than half the circle.
 fn arc_ratio(along: f64, height: f64, k: f64) -> f64 {
     let (x, y) = (along * k, 1.0 - height * k);
-    let ratio = 2.0 / (y + (x * x + y * y).sqrt());
+    let sum = y + (x * x + y * y).sqrt();
+    if sum == 0.0 {
+        // In the centre of the circle, and nothing to fall.
+        return 1.0;
+    }
+    let ratio = 2.0 / sum;
     if ratio * x.abs() <= std::f64::consts::PI { ratio } else { std::f64::consts::PI / x.abs() }
 }

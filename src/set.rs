@@ -72,26 +72,29 @@ impl FootSet {
     }
 }
 
-/// Joins boxes u0, u1, v0, v1 that touch into the hulls of their groups, in order of their least u, then v.
+/// Joins boxes u0, u1, v0, v1 that touch into hulls, and hulls that touch again, in order of their least u, then v.
 pub fn joined(mut boxes: Vec<[f64; 4]>) -> Vec<[f64; 4]> {
-    boxes.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[2].total_cmp(&b[2])));
-    let mut groups: Vec<Vec<[f64; 4]>> = Vec::new();
-    for area in boxes {
-        let touches = |group: &Vec<[f64; 4]>| group.iter().any(|other| touch(other, &area));
-        let mut joined = vec![area];
-        let mut k = 0;
-        while k < groups.len() {
-            if touches(&groups[k]) {
-                joined.append(&mut groups.swap_remove(k));
-            } else {
-                k += 1;
-            }
+    let order = |a: &[f64; 4], b: &[f64; 4]| a[0].total_cmp(&b[0]).then(a[2].total_cmp(&b[2]));
+    loop {
+        boxes.sort_by(order);
+        let before = boxes.len();
+        let mut hulls: Vec<[f64; 4]> = Vec::new();
+        for area in boxes {
+            let mut grown = area;
+            hulls.retain(|known| {
+                let apart = !touch(known, &grown);
+                if !apart {
+                    grown = hull(known, &grown);
+                }
+                apart
+            });
+            hulls.push(grown);
         }
-        groups.push(joined);
+        if hulls.len() == before {
+            return hulls;
+        }
+        boxes = hulls;
     }
-    let mut hulls: Vec<[f64; 4]> = groups.iter().map(|group| hull(group)).collect();
-    hulls.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[2].total_cmp(&b[2])));
-    hulls
 }
 
 /// Whether two closed boxes have a point in common.
@@ -99,12 +102,8 @@ pub fn touch(a: &[f64; 4], b: &[f64; 4]) -> bool {
     a[0] <= b[1] && b[0] <= a[1] && a[2] <= b[3] && b[2] <= a[3]
 }
 
-fn hull(boxes: &[[f64; 4]]) -> [f64; 4] {
-    boxes
-        .iter()
-        .fold([f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY], |h, b| {
-            [h[0].min(b[0]), h[1].max(b[1]), h[2].min(b[2]), h[3].max(b[3])]
-        })
+fn hull(a: &[f64; 4], b: &[f64; 4]) -> [f64; 4] {
+    [a[0].min(b[0]), a[1].max(b[1]), a[2].min(b[2]), a[3].max(b[3])]
 }
 
 /// Share of a span from which on an interval is more than the surroundings of a point.

@@ -12,8 +12,10 @@ use footpoint::batch;
 use footpoint::closest::{FootPoint, QueryOptions, Scope, Workspace};
 use footpoint::curve::Curve;
 use footpoint::index::{IndexedCurve, IndexedSurface};
+use footpoint::normal::{Normals, Tangents, flag, of_curve, of_surface};
 use footpoint::refine::Method;
 use footpoint::surface::Surface;
+use footpoint::unwrap::PathOutput;
 use shapes::asked::Shape;
 use shapes::{FAMILIES, Random, Vector};
 
@@ -170,5 +172,55 @@ fn a_batch_allocates_as_often_for_many_queries_as_for_few() {
         run(1);
         let (few, many) = (run(100), run(1000));
         assert!(many <= few + 3, "{name}: {few} allocations for 100 queries, {many} for 1000");
+    }
+}
+
+/// What goes with feet: everything that is made once is made before.
+#[test]
+fn normals_tangents_uncertainties_and_paths_allocate_nothing_per_foot() {
+    for (name, shape) in shapes() {
+        let (queries, options) = (queries(&shape, 60), QueryOptions::default());
+        let feet: Vec<FootPoint> = queries.iter().map(|q| shape.ask(*q, None, &options)).collect();
+        let query = |i: usize| queries[i % queries.len()];
+        let joined = |count: usize| {
+            let mut feet = feet[..count].to_vec();
+            allocations(|| match &shape {
+                Shape::Curve(curve) => curve
+                    .join(&query, &mut feet, &options, PathOutput::default(), &mut || false)
+                    .expect("a path"),
+                Shape::Surface(surface) => surface
+                    .join(&query, &mut feet, &options, PathOutput::default(), &mut || false)
+                    .expect("a path"),
+            })
+        };
+        assert_eq!(joined(60), joined(1), "{name}");
+        let count = match &shape {
+            Shape::Curve(curve) => {
+                let (curve, tangents) = (curve.curve(), Tangents::new(curve.curve()));
+                allocations(|| {
+                    for foot in &feet {
+                        let (tangent, flags) = tangents.at(foot.u);
+                        let extent = of_curve(curve, false, foot, 1e-6);
+                        assert!(
+                            extent > 0.0
+                                && (flags & flag::UNDEFINED != 0 || tangent[0].is_finite())
+                        );
+                    }
+                })
+            }
+            Shape::Surface(surface) => {
+                let (surface, normals) = (surface.surface(), Normals::new(surface.surface()));
+                allocations(|| {
+                    for (foot, query) in feet.iter().zip(&queries) {
+                        let facing = normals.at(foot, Some(*query));
+                        let extents = of_surface(surface, [false; 2], foot, 1e-6);
+                        let none = facing.flags & flag::UNDEFINED != 0;
+                        assert!(none || facing.normal[0].is_finite(), "{name}: {facing:?}");
+                        assert!(extents[0] > 0.0 && extents[1] > 0.0, "{name}: {extents:?}");
+                    }
+                })
+            }
+        };
+        assert_eq!(count, 0, "{name}");
     }
 }

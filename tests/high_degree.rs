@@ -1,16 +1,19 @@
-//! Degrees 15 to 31, unclamped and periodic knots, against an independent search (`shapes/search.rs`).
+//! Degrees 15 to 31, unclamped and periodic knots, against an independent search (`benches/stress`).
 //!
 //! Times are printed, not asserted: `cargo test --release --test high_degree -- --nocapture`.
 
-mod shapes;
+#[path = "../benches/stress/mod.rs"]
+mod stress;
 
 use std::time::Instant;
 
 use footpoint::closest::{FootPoint, QueryOptions, Workspace, flag};
 use footpoint::index::{IndexedCurve, IndexedSurface};
-use shapes::asked::Shape;
-use shapes::search::{dense, search};
-use shapes::{FAMILIES, Family, Knotting, Random, Vector, norm, sub};
+use stress::design::Design;
+use stress::pieces::Pieces;
+use stress::search::{Scratch, Search};
+use stress::shapes::asked::Shape;
+use stress::shapes::{self, FAMILIES, Family, Knotting, Random, Vector, norm, sub};
 
 const CLAMPED: Family = FAMILIES[0];
 
@@ -25,9 +28,14 @@ struct Report {
 
 /// Asks the shape 30 queries, checks them against the search, and adds to the report.
 fn examine(shape: &Shape, r: &mut Random, report: &mut Report) {
-    let samples = dense(shape);
+    let design = match shape {
+        Shape::Curve(curve) => Design::of_curve(curve.curve()),
+        Shape::Surface(surface) => Design::of_surface(surface.surface()),
+    };
+    let (pieces, scratch) = (Pieces::new(&design), &mut Scratch::default());
+    let search = Search::new(&pieces, design.domain(), design.extent().0);
     let (options, workspace) = (QueryOptions::default(), &mut Workspace::default());
-    shape.ask_with(samples[0].1, None, &options, workspace);
+    shape.ask_with(design.poles[0], None, &options, workspace);
     for _ in 0..30 {
         let query = shape.query(r);
         let mut least = f64::INFINITY;
@@ -41,12 +49,13 @@ fn examine(shape: &Shape, r: &mut Random, report: &mut Report) {
         report.open += usize::from(foot.flags & flag::NOT_PROVEN != 0);
         report.worst = report.worst.max(least);
         report.total += least;
-        let found = search(shape, &samples, query);
+        let found = search.nearest(query, &[], scratch);
+        let nearest = found.square.sqrt();
         let slack = shape.rounding(query, foot.distance);
         let what =
-            || format!("{}: {query:?} {:?} {:e} {foot:?}", report.name, found.at, found.distance);
-        assert!(foot.distance <= found.distance + 1e-9 * shape.diagonal() + slack, "{}", what());
-        assert!(foot.lower_bound <= found.distance + slack, "{}", what());
+            || format!("{}: {query:?} {:?} {:e} {foot:?}", report.name, found.place, nearest);
+        assert!(foot.distance <= nearest + 1e-9 * shape.diagonal() + slack, "{}", what());
+        assert!(foot.lower_bound <= nearest + slack, "{}", what());
         assert!(norm(sub(shape.evaluate([foot.u, foot.v]), foot.point)) == 0.0, "{}", what());
     }
 }

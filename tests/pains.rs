@@ -2,7 +2,7 @@
 
 mod shapes;
 
-use footpoint::closest::{FootPoint, QueryOptions, Workspace, flag};
+use footpoint::closest::{FootPoint, QueryOptions, Scope, Workspace, flag};
 use footpoint::curve::Curve;
 use footpoint::index::{IndexedCurve, IndexedSurface};
 use footpoint::surface::Surface;
@@ -75,6 +75,7 @@ fn has(foot: &FootPoint, bit: u32) -> bool {
     foot.flags & bit != 0
 }
 
+/// Pain: a foot at a Bezier junction is lost by half-open root tests.
 #[test]
 fn a_foot_at_a_junction_of_pieces_is_found() {
     let curve = wavy();
@@ -89,6 +90,7 @@ fn a_foot_at_a_junction_of_pieces_is_found() {
     }
 }
 
+/// Pain: a foot at a curve end or at a parameter above 0.995 is lost.
 #[test]
 fn a_foot_at_a_curve_end_or_close_to_it_is_found() {
     let curve = wavy();
@@ -101,6 +103,7 @@ fn a_foot_at_a_curve_end_or_close_to_it_is_found() {
     assert!(foot.u == 1.0 && has(&foot, flag::EDGE) && !has(&foot, flag::NOT_PROVEN));
 }
 
+/// Pain: a slightly twisted bilinear patch never converges.
 #[test]
 fn a_slightly_twisted_bilinear_patch_converges() {
     for twist in [0.3, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15, 0.0] {
@@ -124,6 +127,7 @@ fn a_slightly_twisted_bilinear_patch_converges() {
     }
 }
 
+/// Pain: a closed direction is wrapped with the wrong sign below the start of the domain.
 #[test]
 fn on_a_closed_curve_whose_domain_does_not_begin_at_0_parameters_beside_the_seam_stay_in_the_domain()
  {
@@ -132,6 +136,13 @@ fn on_a_closed_curve_whose_domain_does_not_begin_at_0_parameters_beside_the_seam
         let angle = f64::from(k) * 1e-3;
         let query = [1.3 * angle.cos(), 1.3 * angle.sin(), 0.2];
         let foot = on_curve(&circle, query);
+        // A hint at the start must not keep the foot from going below it, to the end.
+        for hint in [5.0, 5.0 + 1e-3, 9.0 - 1e-3, 9.0] {
+            let options = QueryOptions::default();
+            let hinted =
+                circle.closest(query, Some(hint), &options, &mut Workspace::default(), None);
+            assert!((hinted.u - foot.u).abs() < 1e-13, "{k} {hint}: {foot:?} {hinted:?}");
+        }
         assert!((5.0..=9.0).contains(&foot.u), "{foot:?}");
         let near_start = foot.u < 5.1;
         assert!(if k < 0 { foot.u > 8.9 } else { near_start }, "{k}: {foot:?}");
@@ -141,6 +152,7 @@ fn on_a_closed_curve_whose_domain_does_not_begin_at_0_parameters_beside_the_seam
     }
 }
 
+/// Pain: distance above zero for touching shapes.
 #[test]
 fn points_of_a_shape_are_at_distance_zero() {
     let (sphere, r) = (sphere(), &mut Random(3));
@@ -152,6 +164,7 @@ fn points_of_a_shape_are_at_distance_zero() {
     }
 }
 
+/// Pain: the nearest turn of a thread is mixed up.
 #[test]
 fn the_nearest_turn_of_a_thread_is_not_mixed_up() {
     // Turns 1e-3 apart: a helix interpolated by its cubic net, 40 poles a turn.
@@ -177,6 +190,7 @@ fn the_nearest_turn_of_a_thread_is_not_mixed_up() {
     }
 }
 
+/// Pain: near-coincident sheets are mixed up.
 #[test]
 fn near_coincident_sheets_are_told_apart() {
     // A strip bent back over itself, its halves 1e-6 apart.
@@ -197,6 +211,7 @@ fn near_coincident_sheets_are_told_apart() {
     }
 }
 
+/// Pain: a foot on a degenerate edge.
 #[test]
 fn feet_on_collapsed_edges_are_found_and_flagged() {
     let cone = cone();
@@ -214,6 +229,7 @@ fn feet_on_collapsed_edges_are_found_and_flagged() {
     }
 }
 
+/// Pain: the circle's axis, where feet are infinitely many.
 #[test]
 fn the_axis_of_a_circle_is_proven_and_flagged_as_a_continuum() {
     let circle = ellipse(1.0, 1.0);
@@ -234,6 +250,7 @@ fn on_axes() -> Vec<(IndexedSurface, f64, f64)> {
     places
 }
 
+/// Pain: the sphere's centre and the axes of surfaces.
 #[test]
 fn axes_and_centres_of_surfaces_are_proven() {
     for (surface, z, distance) in on_axes() {
@@ -272,6 +289,7 @@ fn a_tangent_break_is_a_crease_and_a_quadrant_of_a_circle_is_not() {
     assert!(foot.u == 6.0 && !has(&foot, flag::CREASE), "{foot:?}");
 }
 
+/// Pain: a tiny trimmed region of a huge surface.
 #[test]
 fn a_tiny_region_of_a_huge_surface_is_answered_in_its_box() {
     let poles: Vec<Vector> = (0..36)
@@ -291,6 +309,7 @@ fn a_tiny_region_of_a_huge_surface_is_answered_in_its_box() {
     }
 }
 
+/// Pain: threads that meet while the index is built.
 #[test]
 fn sixteen_threads_that_meet_on_a_fresh_shape_get_the_same_bits() {
     let r = &mut Random(11);
@@ -306,4 +325,235 @@ fn sixteen_threads_that_meet_on_a_fresh_shape_get_the_same_bits() {
             });
         }
     });
+}
+
+/// The wavy curve over a domain that begins at `start`.
+fn wavy_from(start: f64) -> IndexedCurve {
+    let wavy = wavy();
+    let knots: Vec<f64> = wavy.curve().knots().values().iter().map(|u| u + start).collect();
+    curve(&knots, 3, wavy.curve().poles(), None)
+}
+
+/// Pain: the start value is wrong when the domain does not begin at 0.
+#[test]
+fn the_start_is_right_when_the_domain_does_not_begin_at_0() {
+    let (reference, r) = (wavy_from(0.0), &mut Random(21));
+    for start in [-64.0, -1.0, 2.0, 1024.0] {
+        let moved = wavy_from(start);
+        for _ in 0..50 {
+            let query = along([3.5, 0.5, 0.4], r.vector(), 4.0);
+            for scope in [Scope::Global, Scope::Local] {
+                let options = QueryOptions { scope, ..QueryOptions::default() };
+                let ask = |curve: &IndexedCurve| {
+                    curve.closest(query, None, &options, &mut Workspace::default(), None)
+                };
+                let (here, there) = (ask(&reference), ask(&moved));
+                assert!((here.distance - there.distance).abs() < 1e-12, "{here:?} {there:?}");
+                assert!((here.u + start - there.u).abs() < 1e-9, "{start}: {here:?} {there:?}");
+            }
+        }
+    }
+}
+
+/// Pain: the seam folds an edge's parameters over: neighbouring points jump from branch to branch.
+#[test]
+fn the_parameters_of_an_edge_across_the_seam_run_on() {
+    let cylinder = turned(&[0., 0., 1., 1.], 1, &[[1., -1., 1.], [1., 1., 1.]]);
+    let (count, mut last) = (4000, None::<f64>);
+    for k in 0..=count {
+        // A helix of one and a half turns, through the seam twice; a little off the surface.
+        let share = f64::from(k) / f64::from(count);
+        let angle = -2.0 + 9.4 * share;
+        let query = [1.01 * angle.cos(), 1.01 * angle.sin(), 1.8 * share - 0.9];
+        let foot = on_surface(&cylinder, query);
+        assert!((foot.v - (1.8 * share + 0.1) / 2.0).abs() < 1e-12, "{k}: {foot:?}");
+        if let Some(before) = last {
+            // The parameter goes forward by the same small step, or from the end to the start.
+            let step = (foot.u - before).rem_euclid(4.0);
+            assert!(step > 0.0 && step < 3e-3, "{k}: from {before} to {foot:?}");
+        }
+        last = Some(foot.u);
+    }
+}
+
+/// Pain: the far extremum is returned because the foot lies outside the trim.
+#[test]
+fn a_foot_outside_the_box_gives_the_border_of_the_box_and_not_the_far_extremum() {
+    // The near side of the circle is cut off: what is left has a farthest point inside, and its nearest at an end.
+    let circle = ellipse(1.0, 1.0);
+    let options = QueryOptions { domain: Some([5.5, 8.5, 0.0, 0.0]), ..QueryOptions::default() };
+    for y in [0.1, 0.0, -0.1] {
+        let foot = circle.closest([3.0, y, 0.0], None, &options, &mut Workspace::default(), None);
+        let nearest = if y < 0.0 { 8.5 } else { 5.5 };
+        assert!(foot.u == nearest || y == 0.0 && foot.u == 8.5, "{y}: {foot:?}");
+        assert!(!has(&foot, flag::NOT_PROVEN) && foot.distance < 2.5, "{y}: {foot:?}");
+    }
+    let sphere = sphere();
+    let domain = Some([5.5, 8.5, 0.25, 1.75]);
+    let options = QueryOptions { domain, ..QueryOptions::default() };
+    let query = [3.0, 0.2, 0.1];
+    let foot = sphere.closest(query, None, &options, &mut Workspace::default(), None);
+    let end = circle.curve().evaluate(5.5);
+    assert!(foot.u == 5.5 && !has(&foot, flag::NOT_PROVEN), "{foot:?}");
+    assert!(foot.distance < norm(sub(query, end)) + 1e-12, "{foot:?}");
+}
+
+/// Pain: distance above zero for touching shapes.
+#[test]
+fn where_two_shapes_touch_both_distances_are_zero() {
+    let sphere = sphere();
+    let poles = [[-2., -2., 1.], [-2., 2., 1.], [2., -2., 1.], [2., 2., 1.]];
+    let knots = [0., 0., 1., 1.];
+    let plane = Surface::new(&knots, &knots, 1, 1, &poles, 2, 2, None).expect("a plane");
+    let plane = IndexedSurface::new(plane);
+    let touch = [0., 0., 1.];
+    for shape in [&sphere, &plane] {
+        let foot = on_surface(shape, touch);
+        assert!(foot.distance == 0.0 && foot.lower_bound == 0.0, "{foot:?}");
+        assert_eq!(foot.flags & (flag::NOT_PROVEN | flag::NOT_ON_SHAPE), 0);
+    }
+    // From the nearest point of the one to the other and back: still there.
+    let there = on_surface(&plane, on_surface(&sphere, [0., 0., 1.5]).point);
+    assert!(on_surface(&sphere, there.point).distance <= 1e-16);
+}
+
+/// Pain: point and returned parameter do not match.
+#[test]
+fn the_point_is_that_of_the_parameters_bit_for_bit() {
+    let (curve, surfaces, r) = (wavy_from(-3.0), [sphere(), cone()], &mut Random(31));
+    for _ in 0..500 {
+        let query = r.vector().map(|x| 4.0 * x);
+        let foot = on_curve(&curve, query);
+        assert_eq!(foot.point, curve.curve().evaluate(foot.u));
+        assert!((foot.distance - norm(sub(query, foot.point))).abs() <= 1e-15 * foot.distance);
+        for surface in &surfaces {
+            let foot = on_surface(surface, query);
+            assert_eq!(foot.point, surface.surface().evaluate(foot.u, foot.v));
+        }
+    }
+}
+
+/// Pain: evaluators that cache the last span race across threads.
+#[test]
+fn evaluations_of_far_spans_in_many_threads_do_not_disturb_each_other() {
+    let (curve, surface) = (wavy_from(2.0), sphere());
+    let places: Vec<[f64; 2]> = (0..400)
+        .map(|k| [f64::from(k * 97 % 400) / 100.0, f64::from(k * 31 % 400) / 200.0])
+        .collect();
+    let all = || -> Vec<[Vector; 6]> {
+        let mut both = Vec::new();
+        for [u, v] in &places {
+            let (mut on_curve, mut on_surface) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
+            curve.curve().derivatives(2.0 + u / 4.0, 2, &mut on_curve);
+            surface.surface().partials(5.0 + u, *v, 1, &mut on_surface);
+            let [a, b, c] = on_curve;
+            let [d, e, f] = on_surface;
+            both.push([a, b, c, d, e, f]);
+        }
+        both
+    };
+    let expected = all();
+    std::thread::scope(|scope| {
+        for _ in 0..8 {
+            scope.spawn(|| (0..20).for_each(|_| assert_eq!(all(), expected)));
+        }
+    });
+}
+
+/// Pain: results differ between operating systems. Sums, products, quotients and square roots are the same
+/// everywhere; functions of the system's mathematics are not, and so are none in the library.
+#[test]
+fn no_function_is_called_whose_digits_depend_on_the_system() {
+    const REFUSED: [&str; 16] = [
+        "mul_add", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "exp2", "ln",
+        "log10", "log2", "powf", "hypot", "cbrt",
+    ];
+    fn visit(folder: &std::path::Path, calls: &mut Vec<String>) {
+        for entry in std::fs::read_dir(folder).expect("a folder of sources") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                visit(&path, calls);
+                continue;
+            }
+            let text = std::fs::read_to_string(&path).expect("a source file");
+            let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+            for line in code.lines().map(|line| line.split("//").next().unwrap_or_default()) {
+                for name in REFUSED {
+                    let is_called = line.contains(&format!(".{name}("))
+                        || line.contains(&format!("f64::{name}("));
+                    calls.extend(is_called.then(|| format!("{}: {line}", path.display())));
+                }
+            }
+        }
+    }
+    let mut calls = Vec::new();
+    visit(&std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut calls);
+    calls.retain(|call| !call.contains("ffi/tests.rs"));
+    assert!(calls.is_empty(), "{calls:#?}");
+}
+
+/// Pain: process-wide settings changed by one bad query.
+#[test]
+fn a_bad_query_changes_nothing_for_the_queries_after_it() {
+    let (sphere, r) = (sphere(), &mut Random(41));
+    let queries: Vec<Vector> = (0..40).map(|_| r.vector().map(|x| 3.0 * x)).collect();
+    let (options, mut workspace) = (QueryOptions::default(), Workspace::default());
+    let mut all = |bad: Option<Vector>| -> Vec<_> {
+        let mut answers = Vec::new();
+        for query in &queries {
+            if let Some(bad) = bad {
+                let foot = sphere.closest(bad, Some([f64::NAN; 2]), &options, &mut workspace, None);
+                assert!(has(&foot, flag::NOT_PROVEN) || foot.distance.is_finite());
+            }
+            answers.push(bits(&sphere.closest(*query, None, &options, &mut workspace, None)));
+        }
+        answers
+    };
+    let expected = all(None);
+    for bad in [f64::NAN, f64::INFINITY, -f64::INFINITY, f64::MAX, 1e99, f64::MIN_POSITIVE, 5e-324]
+    {
+        assert_eq!(all(Some([bad, 0.0, 1.0])), expected, "{bad}");
+        // Another thread, too, and arithmetic itself: small numbers are not flushed, rounding is to nearest.
+        let other = std::thread::scope(|scope| {
+            let answer =
+                || queries.iter().map(|q| bits(&on_surface(&sphere, *q))).collect::<Vec<_>>();
+            scope.spawn(answer).join().expect("a thread")
+        });
+        assert_eq!(other, expected, "{bad}");
+        let [tiny, third] = [f64::MIN_POSITIVE, 3.0].map(std::hint::black_box);
+        assert!(tiny / 2.0 > 0.0 && (1.0 / third).to_bits() == 0x3fd5_5555_5555_5555);
+    }
+}
+
+/// A wavy sheet of `count` x `count` pieces.
+fn waves(count: usize) -> IndexedSurface {
+    let place = |i: usize| i as f64 / count as f64;
+    let knots: Vec<f64> = (0..count + 7).map(|i| place(i.clamp(3, count + 3) - 3)).collect();
+    let rows = count + 3;
+    let poles: Vec<Vector> = (0..rows * rows)
+        .map(|k| {
+            [place(k / rows), place(k % rows), 0.02 * ((k / rows * 7 + k % rows * 3) % 5) as f64]
+        })
+        .collect();
+    let sheet = Surface::new(&knots, &knots, 3, 3, &poles, rows, rows, None).expect("a sheet");
+    IndexedSurface::new(sheet)
+}
+
+/// Pain: slow single queries because the surface is sampled again every time.
+#[test]
+fn a_single_query_of_a_large_surface_takes_no_more_evaluations_than_one_of_a_small_surface() {
+    let (small, large, r) = (waves(4), waves(64), &mut Random(51));
+    let mean = |surface: &IndexedSurface, r: &mut Random| {
+        let spent = (0..300).map(|_| {
+            let query = [r.between(0.1, 0.9), r.between(0.1, 0.9), r.between(-0.05, 0.15)];
+            u64::from(on_surface(surface, query).iterations)
+        });
+        spent.sum::<u64>() as f64 / 300.0
+    };
+    let [few, many] = [&small, &large].map(|surface| mean(surface, r));
+    assert!(many < 4.0 * few + 60.0, "{few} evaluations a query, {many} on 256 times the pieces");
+    assert!(many < 4096.0 / 8.0, "{many} evaluations: as if all 4096 pieces were sampled");
+    let index = large.index(&mut || false).expect("an index") as *const _;
+    on_surface(&large, [0.5, 0.5, 1.0]);
+    assert!(std::ptr::eq(index, large.index(&mut || false).expect("an index")), "built again");
 }

@@ -3,6 +3,10 @@
 //! The reference for positions is the Cox-de Boor recursion in doubled precision, written here on its
 //! own, so that a bound of a few eps can be tested honestly.
 
+#[path = "../benches/stress/double.rs"]
+mod double;
+
+use double::Double;
 use footpoint::basis;
 use footpoint::curve::Curve;
 use footpoint::knots::{Knots, MAX_DEGREE};
@@ -10,43 +14,6 @@ use footpoint::surface::Surface;
 use proptest::prelude::*;
 
 const EPS: f64 = f64::EPSILON;
-
-/// A sum of two doubles: 106 bits.
-#[derive(Clone, Copy)]
-struct Double(f64, f64);
-
-impl Double {
-    fn sum(a: f64, b: f64) -> Self {
-        let s = a + b;
-        let t = s - a;
-        Self(s, (a - (s - t)) + (b - t))
-    }
-
-    fn of(a: f64) -> Self {
-        Self(a, 0.0)
-    }
-
-    fn plus(self, b: Self) -> Self {
-        let Self(s, e) = Self::sum(self.0, b.0);
-        Self::sum(s, e + (self.1 + b.1))
-    }
-
-    fn times(self, b: Self) -> Self {
-        let p = self.0 * b.0;
-        let e = self.0.mul_add(b.0, -p);
-        Self::sum(p, e + (self.0 * b.1 + self.1 * b.0))
-    }
-
-    fn minus(self, b: Self) -> Self {
-        self.plus(Self(-b.0, -b.1))
-    }
-
-    fn over(self, b: Self) -> Self {
-        let q = self.0 / b.0;
-        let rest = self.minus(b.times(Self::of(q)));
-        Self::sum(q, (rest.0 + rest.1) / b.0)
-    }
-}
 
 /// All basis functions on the span of `u`, in doubled precision.
 fn exact_basis(knots: &Knots, u: f64) -> Vec<Double> {

@@ -29,7 +29,7 @@ const FRESH: u32 = 12;
 /// The same in a patch that has taken `HARD` boxes: there planes close what squares do not.
 const FRESH_HARD: u32 = 2;
 const HARD: u64 = 32;
-/// Tilted planes that are tried before one in 64 must have closed its box.
+/// Tilted planes that are tried before one in 16 must have closed its box.
 const TILT_TRIES: u64 = 32;
 
 /// A patch in the search.
@@ -132,7 +132,7 @@ impl Walk<'_, '_, '_> {
     /// Whether the patch has taken many boxes, and tilted planes close enough of them.
     fn hard(&self) -> bool {
         let (tries, hits) = self.tilts;
-        self.proof.spent - self.start > HARD && (tries < TILT_TRIES || 64 * hits > tries)
+        self.proof.spent - self.start > HARD && (tries < TILT_TRIES || 16 * hits > tries)
     }
 
     fn run(&mut self) -> bool {

@@ -6,7 +6,7 @@ use crate::bounds::{HALF_ULP, Vector, dot, norm, scaled, sub};
 const RIVALS: usize = 8;
 
 /// Share of the budget that the search for ties may take, and iterations from places met in it.
-const TIE_SHARE: u64 = 8;
+const TIE_SHARE: u64 = 16;
 const TIE_STARTS: usize = 16;
 
 /// Where the best foot lies: a piece and its local parameters.

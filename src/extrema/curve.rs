@@ -2,13 +2,17 @@
 
 use super::gradient::View;
 use super::nature::{Signs, end_of, from_samples};
-use super::{Candidate, ExtremaOptions, Source, flat_limit, is_reachable, kind};
+use super::{
+    BESIDE, Candidate, ExtremaOptions, LONGEST_POLISH, POLISH_STEPS, Source, Taken, flat_limit,
+    is_reachable, kind,
+};
 use crate::bezier::Bidegree;
 use crate::bounds::{Vector, norm, sub};
 use crate::closest::{FootPoint, flag, rounding_floor};
 use crate::error::Error;
 use crate::index::{CurveIndex, IndexedCurve, position_error, position_steps};
 use crate::jet::{BezierSegment, Jet1};
+use crate::refine::{Method, foot_on_curve};
 use crate::roots::{Found, Zero, zeros_of};
 use crate::set::{FootSet, Kind, Member, Nature, is_wide, joined};
 
@@ -17,6 +21,10 @@ const SAME: f64 = 1e-9;
 
 /// A zero this close to the end of a segment lies on it.
 const ON_END: f64 = 1e-13;
+
+/// Flat intervals whose distances differ by more than this many accuracies are a chain, not a continuum.
+const CHAIN: f64 = 8.0;
+const CHAIN_SAMPLES: usize = 8;
 
 /// How far around a flat member the distance is compared with its own, as a share of the range.
 const AROUND: f64 = 0.02;
@@ -36,6 +44,9 @@ impl IndexedCurve {
         poll: &mut dyn FnMut() -> bool,
     ) -> Result<FootSet, Error> {
         let index = self.index(poll)?;
+        if poll() {
+            return Err(Error::Cancelled);
+        }
         let range = self.restricted(options.domain);
         let q = index.frame.enter(query);
         if !is_reachable(q) {
@@ -106,23 +117,23 @@ impl Line<'_> {
         self.net.jet(s, self.query)
     }
 
-    fn polish(&self, s: f64) -> f64 {
+    /// Newton for the derivative from a zero of the polynomial, whose digits the subdivision has worn; `None` when the two
+    /// do not agree.
+    fn polish(&self, s: f64) -> Option<f64> {
         let mut s = s;
-        for _ in 0..4 {
+        for _ in 0..POLISH_STEPS {
             let jet = self.jet(s);
             let step = -jet.gradient() / jet.hessian();
-            if step.is_nan() || step.abs() > 1e-6 {
-                break;
+            if step.is_nan() || step.abs() > LONGEST_POLISH {
+                return None;
             }
             s = (s + step).clamp(self.range[0], self.range[1]);
+            if step.abs() < 1e-15 {
+                break;
+            }
         }
-        if s < ON_END {
-            0.0
-        } else if s > 1.0 - ON_END {
-            1.0
-        } else {
-            s
-        }
+        let low = if s < ON_END { 0.0 } else { s };
+        Some(if s > 1.0 - ON_END { 1.0 } else { low })
     }
 }
 
@@ -154,8 +165,9 @@ impl<'a> Search<'a> {
         }
         let accuracy = self.accuracy * self.index.frame.scale;
         let cube = view.least_weight().powi(3);
-        let is_flat = |low: f64, high: f64, size: f64| {
-            let variation = 2.0 * size * (high - low) / cube;
+        let is_flat = |low: f64, high: f64, size: f64, is_noise: bool| {
+            let width = if is_noise { high - low } else { 1.0 };
+            let variation = 2.0 * size * width / cube;
             let middle = line.local(0.5 * (low + high));
             variation <= flat_limit(line.reach, accuracy)
                 && variation <= flat_limit(norm(line.jet(middle).d), accuracy)
@@ -175,12 +187,14 @@ impl<'a> Search<'a> {
 
     fn take(&mut self, line: &Line, zero: &Zero<1>) {
         let ends = [zero.low[0], zero.high[0]];
-        match zero.found {
-            Found::Root => {
-                self.push(line, line.polish(line.local(zero.at[0])), ends, Source::Inside)
+        let at = line.local(zero.at[0]);
+        match (zero.found, line.polish(at)) {
+            (Found::Flat, _) => self.push(line, at, ends, Source::Flat),
+            (Found::Root, Some(at)) => {
+                let source = if end_of(at) == 0.0 { Source::Inside } else { Source::OnEnd };
+                self.push(line, at, ends, source);
             }
-            Found::Flat => self.push(line, line.local(zero.at[0]), ends, Source::Flat),
-            Found::Undecided => {
+            _ => {
                 let [a, b] = ends.map(|x| self.global(line, x));
                 self.undecided.push([a, b, 0.0, 0.0]);
             }
@@ -211,35 +225,55 @@ impl<'a> Search<'a> {
         self.index.closed && self.range == [first, last]
     }
 
-    /// Whether two intervals touch, across the seam too.
-    fn is_same(&self, a: &[f64; 4], b: &[f64; 4]) -> bool {
-        let turn = if self.is_turning() { self.range[1] - self.range[0] } else { 0.0 };
-        [-turn, 0.0, turn].iter().any(|t| a[0] <= b[1] + t && b[0] + t <= a[1])
-    }
-
     fn members(&self) -> Vec<Member> {
         let of = |flat: bool| {
             self.candidates.iter().filter(move |c| (c.source == Source::Flat) == flat).copied()
         };
-        let mut taken: Vec<[f64; 4]> = Vec::new();
+        let (mut members, mut taken) = (Vec::new(), Vec::new());
         for area in joined(of(true).map(|c| c.area).collect()) {
-            if !taken.iter().any(|known| self.is_same(known, &area)) {
-                taken.push(area);
+            let (u, is_chain) = self.flat_place(area);
+            let at = [u, 0.0];
+            let member = self.flat_member(area, u, is_chain);
+            let candidate = Candidate { at, area, source: Source::Flat };
+            if !self.goes_on_across(&taken, &area) {
+                taken.push(Taken::new(&member, candidate));
+                members.push(member);
             }
         }
-        let mut members: Vec<Member> = taken.iter().map(|area| self.flat_member(*area)).collect();
         let mut points: Vec<Candidate> = of(false).collect();
         points.sort_by_key(|c| c.source);
         for candidate in points {
-            if taken.iter().any(|area| self.is_same(area, &candidate.area)) {
+            let foot = self.foot(candidate.at[0]);
+            if self.is_taken(&taken, &candidate, &foot) {
                 continue;
             }
-            if let Some(member) = self.point_member(&candidate) {
+            if let Some(member) = self.point_member(&candidate, foot) {
+                taken.push(Taken::new(&member, candidate));
                 members.push(member);
-                taken.push(candidate.area);
             }
         }
         members
+    }
+
+    fn is_taken(&self, taken: &[Taken], candidate: &Candidate, foot: &FootPoint) -> bool {
+        let sizes = (self.index.frame.diagonal, self.accuracy);
+        let turn = if self.is_turning() { self.range[1] - self.range[0] } else { 0.0 };
+        let holds = |area: &[f64; 4], at: [f64; 2]| {
+            [-turn, 0.0, turn].iter().any(|turn| (area[0]..=area[1]).contains(&(at[0] + turn)))
+        };
+        let step = BESIDE * (self.range[1] - self.range[0]);
+        let beside = |at: [f64; 2]| holds(&[at[0] - step, at[0] + step, 0.0, 0.0], candidate.at);
+        taken.iter().any(|known| known.is_same(candidate, foot, sizes, holds, beside))
+    }
+
+    /// Whether an interval goes on in a known flat one on the other side of the seam; then it is part of that, unless it goes
+    /// all the way round.
+    fn goes_on_across(&self, taken: &[Taken], area: &[f64; 4]) -> bool {
+        let [first, last] = self.range;
+        let begins = |known: &Taken| {
+            known.candidate.source == Source::Flat && known.candidate.area[0] == first
+        };
+        self.is_turning() && area[0] > first && area[1] == last && taken.iter().any(begins)
     }
 
     fn foot(&self, u: f64) -> FootPoint {
@@ -250,39 +284,89 @@ impl<'a> Search<'a> {
         norm(sub(self.shape.curve().evaluate(u), self.query))
     }
 
-    fn point_member(&self, candidate: &Candidate) -> Option<Member> {
-        let u = candidate.at[0];
+    /// The signs that the segments around a place tell; where it is `stationary`, those of the second derivatives.
+    fn signs(&self, u: f64, stationary: bool) -> Signs {
         let mut signs = Signs::default();
         for (piece, s) in self.index.around(u, self.range) {
             let Some(line) = self.line(piece) else { continue };
-            let at_end = |end: f64| if u == self.range[0] { 0.0 } else { end };
-            let end = if end_of(s) != 0.0 {
+            let end = if stationary {
+                0.5
+            } else if end_of(s) != 0.0 {
                 s
+            } else if u == self.range[0] {
+                0.0
             } else if u == self.range[1] {
                 1.0
             } else {
-                at_end(s)
+                s
             };
             signs.segment(&line.jet(s), end, line.position);
         }
-        if candidate.source == Source::Border && signs.passes() {
-            return None;
+        signs
+    }
+
+    fn point_member(&self, candidate: &Candidate, foot: FootPoint) -> Option<Member> {
+        let u = candidate.at[0];
+        let mut signs = self.signs(u, false);
+        if signs.passes() {
+            // A zero beyond the end of its piece, moved onto it: the neighbour has it, or nobody.
+            if matches!(candidate.source, Source::Border | Source::OnEnd) {
+                return None;
+            }
+            signs = self.signs(u, true);
         }
         let mut nature = signs.nature();
         if nature == Nature::Flat {
             nature = self.sampled_nature(u, candidate.area);
         }
-        let foot = self.foot(u);
         Some(Member { foot, u: [foot.u; 2], v: [0.0; 2], kind: Kind::Point, nature })
     }
 
-    fn flat_member(&self, area: [f64; 4]) -> Member {
-        let middle = 0.5 * (area[0] + area[1]);
-        let flat =
-            is_wide([area[0], area[1]], self.range, self.index.segments.iter().map(|s| s.u.ends));
-        let mut foot = self.foot(if flat { area[0] } else { middle });
+    /// The best place in a flat interval: nearest of the flat pieces' middles. Intervals that are flat one by one may form a
+    /// chain that is not; then the nearest place by local iteration, and true.
+    fn flat_place(&self, area: [f64; 4]) -> (f64, bool) {
+        let inside = |c: &&Candidate| {
+            c.source == Source::Flat && c.area[0] <= area[1] && area[0] <= c.area[1]
+        };
+        let (mut least, mut most, mut u) = (f64::INFINITY, 0.0_f64, area[0]);
+        let middles = self.candidates.iter().filter(inside).map(|c| c.at[0]);
+        let share = |k: usize| area[0] + (area[1] - area[0]) * k as f64 / CHAIN_SAMPLES as f64;
+        for place in middles.chain((0..=CHAIN_SAMPLES).map(share)) {
+            let distance = self.distance(place);
+            most = most.max(distance);
+            if distance < least {
+                (least, u) = (distance, place);
+            }
+        }
+        let is_chain = most - least > CHAIN * self.accuracy;
+        if let (true, Some(&(k, s))) = (is_chain, self.index.around(u, self.range).first()) {
+            let span = self.index.segments[k].u;
+            if let Some(line) = self.line(k) {
+                let low = span.local(area[0]).max(line.range[0]);
+                let high = span.local(area[1]).min(line.range[1]);
+                let curve = (line.net, line.query);
+                let (s, _, _) = foot_on_curve(&curve, s, [low, high], Method::Auto, None);
+                u = self.parameter(&line, s);
+            }
+        }
+        (u, is_chain)
+    }
+
+    fn flat_member(&self, area: [f64; 4], middle: f64, is_chain: bool) -> Member {
+        let flat = !is_chain
+            && is_wide(
+                [area[0], area[1]],
+                self.range,
+                self.index.segments.iter().map(|s| s.u.ends),
+            );
+        // Along a continuum every place is as good: its start is the canonical one.
+        let is_near = self.distance(area[0]) <= self.distance(middle) + self.accuracy;
+        let mut foot = self.foot(if flat && is_near { area[0] } else { middle });
         if flat {
             foot.flags |= flag::CONTINUUM | flag::TIE;
+        }
+        if is_chain {
+            foot.flags |= flag::NOT_PROVEN;
         }
         let u = [area[0].min(foot.u), area[1].max(foot.u)];
         let nature = self.sampled_nature(middle, area);

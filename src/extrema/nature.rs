@@ -14,6 +14,9 @@ const LEAST_COSINE: f64 = 1e-9;
 /// Second derivatives count as zero below this share of the metric.
 const LEAST_CURVATURE: f64 = 1e-7;
 
+/// Derivatives are off by some times what positions are: at a place where they vanish, only that is left of them.
+const NOISE: f64 = 64.0;
+
 /// Signs gathered around a place.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Signs {
@@ -58,13 +61,14 @@ impl Signs {
 
     /// A segment at whose end (or inside of which) the place lies; `position` is how far its points may be off.
     pub fn segment(&mut self, jet: &Jet1, x: f64, position: f64) {
-        let speed = norm(jet.s);
-        let least = speed * (LEAST_COSINE * norm(jet.d) + 32.0 * position);
+        let (speed, distance) = (norm(jet.s), norm(jet.d));
+        let noise = NOISE * distance * position;
+        let least = speed * (LEAST_COSINE * distance + 32.0 * position) + noise;
         let inward = end_of(x);
         if inward != 0.0 && self.first(0, inward * jet.gradient(), least) {
             return;
         }
-        self.put(jet.hessian(), LEAST_CURVATURE * speed * speed);
+        self.put(jet.hessian(), LEAST_CURVATURE * speed * speed + 4.0 * noise);
     }
 
     /// A patch at whose side or corner (or inside of which) the place lies.
@@ -72,22 +76,23 @@ impl Signs {
         let gradient = jet.gradient();
         let tangents = [jet.s, jet.t];
         let reach = LEAST_COSINE * norm(jet.d) + 32.0 * position;
+        let noise = NOISE * norm(jet.d) * position;
         let moves = [0, 1].map(|k| {
             let inward = end_of(at[k]);
-            inward != 0.0 && self.first(k, inward * gradient[k], norm(tangents[k]) * reach)
+            inward != 0.0 && self.first(k, inward * gradient[k], norm(tangents[k]) * reach + noise)
         });
         let [a, b, c] = jet.hessian();
         let [e, _, g] = jet.metric();
         match moves {
             [true, true] => {}
-            [true, false] => self.put(c, LEAST_CURVATURE * g),
-            [false, true] => self.put(a, LEAST_CURVATURE * e),
-            [false, false] => self.form([a, b, c], [e, dot(jet.s, jet.t), g]),
+            [true, false] => self.put(c, LEAST_CURVATURE * g + 4.0 * noise),
+            [false, true] => self.put(a, LEAST_CURVATURE * e + 4.0 * noise),
+            [false, false] => self.form([a, b, c], [e, dot(jet.s, jet.t), g], 4.0 * noise),
         }
     }
 
     /// Eigenvalues of the second derivatives relative to the metric.
-    fn form(&mut self, [a, b, c]: [f64; 3], [e, f, g]: [f64; 3]) {
+    fn form(&mut self, [a, b, c]: [f64; 3], [e, f, g]: [f64; 3], noise: f64) {
         let area = e * g - f * f;
         if area <= 1e-12 * e * g {
             self.zero = true;
@@ -98,13 +103,28 @@ impl Signs {
         let d = (a * c - b * b) / area;
         let spread = (m * m - d).max(0.0).sqrt();
         for value in [m - spread, m + spread] {
-            self.put(value, LEAST_CURVATURE);
+            self.put(value, LEAST_CURVATURE + noise / e.min(g));
         }
     }
 
     /// Whether the place is not stationary: across some knot line the distance falls on one side and rises on the other.
     pub fn passes(&self) -> bool {
         self.across.contains(&[true, true])
+    }
+
+    /// The parameters across whose knot lines it falls on one side and rises on the other.
+    pub fn passing(&self) -> [bool; 2] {
+        self.across.map(|sides| sides == [true, true])
+    }
+
+    /// The verdict on a continuum, along which nothing changes: what the signs across it say, if they say anything.
+    pub fn nature_across(&self) -> Option<Nature> {
+        match (self.up, self.down) {
+            (true, true) => Some(Nature::Saddle),
+            (true, false) => Some(Nature::Minimum),
+            (false, true) => Some(Nature::Maximum),
+            (false, false) => None,
+        }
     }
 
     /// The verdict.

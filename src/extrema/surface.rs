@@ -3,9 +3,11 @@
 mod members;
 
 use super::gradient::{Slope, View};
-use super::nature::Signs;
-use super::{Candidate, ExtremaOptions, Source, flat_limit, is_reachable};
-use crate::bezier::Bidegree;
+use super::nature::{Signs, end_of};
+use super::{
+    Candidate, ExtremaOptions, LONGEST_POLISH, POLISH_STEPS, Source, flat_limit, is_reachable,
+};
+use crate::bezier::{Bidegree, cut};
 use crate::bounds::{Vector, extent, norm, sub};
 use crate::closest::{Workspace, local_interval, rounding_floor};
 use crate::error::Error;
@@ -35,6 +37,9 @@ impl IndexedSurface {
         poll: &mut dyn FnMut() -> bool,
     ) -> Result<FootSet, Error> {
         let index = self.index(poll)?;
+        if poll() {
+            return Err(Error::Cancelled);
+        }
         let range = self.restricted(options.domain);
         let q = index.frame.enter(query);
         if !is_reachable(q) {
@@ -99,6 +104,8 @@ struct Sheet<'a> {
     least_weight: f64,
     /// Greatest distance of a point of the patch.
     reach: f64,
+    /// Greatest distance of its points from its own origin.
+    radius: f64,
 }
 
 impl Sheet<'_> {
@@ -130,38 +137,42 @@ impl Sheet<'_> {
         2.0 * moved / (self.least_weight * self.least_weight * self.least_weight)
     }
 
-    /// Newton for the gradient from a zero of the polynomials, whose digits the subdivision has worn.
-    fn polish(&self, at: [f64; 2]) -> [f64; 2] {
-        let mut at = at;
-        for _ in 0..4 {
-            let jet = self.jet(at);
+    /// Newton for the gradient from a zero of the polynomials, whose digits the subdivision has worn; `None` when the two
+    /// do not agree.
+    fn polish(&self, at: [f64; 2]) -> Option<[f64; 2]> {
+        self.settled(at, |jet| {
             let ([a, b, c], g) = (jet.hessian(), jet.gradient());
             let det = a * c - b * b;
-            let step = [(b * g[1] - c * g[0]) / det, (b * g[0] - a * g[1]) / det];
-            if step.iter().any(|x| x.is_nan() || x.abs() > 1e-6) {
-                break;
-            }
-            at = [0, 1].map(|k| (at[k] + step[k]).clamp(self.range[2 * k], self.range[2 * k + 1]));
-            if step[0].abs().max(step[1].abs()) < 1e-15 {
-                break;
-            }
-        }
-        [0, 1].map(|k| snapped(at[k]))
+            [(b * g[1] - c * g[0]) / det, (b * g[0] - a * g[1]) / det]
+        })
     }
 
     /// The same along one parameter.
-    fn polish_along(&self, at: [f64; 2], k: usize) -> [f64; 2] {
-        let mut at = at;
-        for _ in 0..4 {
-            let one = self.jet(at).along(k);
+    fn polish_along(&self, at: [f64; 2], k: usize) -> Option<[f64; 2]> {
+        self.settled(at, |jet| {
+            let one = jet.along(k);
             let step = -one.gradient() / one.hessian();
-            if step.is_nan() || step.abs() > 1e-6 {
+            if k == 0 { [step, 0.0] } else { [0.0, step] }
+        })
+    }
+
+    fn settled(&self, at: [f64; 2], step: impl Fn(&Jet2) -> [f64; 2]) -> Option<[f64; 2]> {
+        let mut at = at;
+        for _ in 0..POLISH_STEPS {
+            let jet = self.jet(at);
+            let step = step(&jet);
+            let size = step[0].abs().max(step[1].abs());
+            // A parameter that hardly moves the point (near a collapsed edge) may move far.
+            let moved = step[0].abs() * norm(jet.s) + step[1].abs() * norm(jet.t);
+            if moved.is_nan() || moved > LONGEST_POLISH * self.radius {
+                return None;
+            }
+            at = [0, 1].map(|k| (at[k] + step[k]).clamp(self.range[2 * k], self.range[2 * k + 1]));
+            if size < 1e-15 {
                 break;
             }
-            at[k] = (at[k] + step).clamp(self.range[2 * k], self.range[2 * k + 1]);
         }
-        at[k] = snapped(at[k]);
-        at
+        Some(at.map(snapped))
     }
 }
 
@@ -173,6 +184,27 @@ fn snapped(x: f64) -> f64 {
     } else {
         x
     }
+}
+
+/// Least and greatest value of a polynomial among its ends and one place between any two of its zeros: enough to know
+/// which signs it has.
+fn sampled_extent(coefficients: &[f64], error: f64, budget: &mut u64) -> (f64, f64) {
+    let mut zeros = Vec::new();
+    let is_flat = |low: f64, high: f64, size: f64, _| size <= 4.0 * error || high - low < 1e-9;
+    zeros_of(coefficients, error, &is_flat, budget, &mut zeros);
+    let mut places = vec![0.0];
+    places.extend(zeros.windows(2).map(|pair| 0.5 * (pair[0].high[0] + pair[1].low[0])));
+    places.extend(zeros.first().map(|zero| 0.5 * zero.low[0]));
+    places.extend(zeros.last().map(|zero| 0.5 * (1.0 + zero.high[0])));
+    places.push(1.0);
+    let value = |x: f64| {
+        let mut c = coefficients.to_vec();
+        let degree = c.len() - 1;
+        cut(&mut c, degree, 1, 1, 0.0, if x > 0.0 { x } else { 1.0 });
+        c[if x > 0.0 { degree } else { 0 }]
+    };
+    let values: Vec<f64> = places.into_iter().map(value).collect();
+    extent(&values)
 }
 
 impl Meaning for Sheet<'_> {
@@ -192,9 +224,12 @@ impl Meaning for Sheet<'_> {
         [greatest(side::T0) * greatest(side::T1), greatest(side::S0) * greatest(side::S1)]
     }
 
-    fn is_flat(&self, low: [f64; 2], high: [f64; 2], sizes: [f64; 2]) -> bool {
+    /// The gradient must be so small that the distance stays within the accuracy on any way through the whole patch: boxes that
+    /// are flat one by one could form a chain that is not. Where rounding hides the gradient the box itself must do.
+    fn is_flat(&self, low: [f64; 2], high: [f64; 2], sizes: [f64; 2], is_noise: bool) -> bool {
         let scale = self.scale(low, high);
-        let moved = [0, 1].map(|k| sizes[k] * scale[k] * (high[k] - low[k]));
+        let width = [0, 1].map(|k| if is_noise { high[k] - low[k] } else { 1.0 });
+        let moved = [0, 1].map(|k| sizes[k] * scale[k] * width[k]);
         let middle = self.local([0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])]);
         self.is_level(self.variation(moved[0] + moved[1]), middle)
     }
@@ -263,6 +298,7 @@ impl<'a> Search<'a> {
             accuracy: self.accuracy * self.index.frame.scale,
             least_weight: 1.0,
             reach: size + patch.radius,
+            radius: patch.radius,
         })
     }
 
@@ -293,7 +329,7 @@ impl<'a> Search<'a> {
 
     /// Notes how the distance changes along the lines that leave a collapsed side.
     fn leave(&mut self, slope: &Slope, side: usize) {
-        let (low, high) = extent(&slope.on_side(side));
+        let (low, high) = sampled_extent(&slope.on_side(side), slope.error, &mut self.budget);
         let (low, high) = if side % 2 == 0 { (low, high) } else { (-high, -low) };
         let known = self.leaving[side].unwrap_or((f64::INFINITY, f64::NEG_INFINITY, 0.0));
         self.leaving[side] = Some((known.0.min(low), known.1.max(high), known.2.max(slope.error)));
@@ -321,10 +357,14 @@ impl<'a> Search<'a> {
         for zero in zeros {
             match zero.found {
                 Found::Undecided => self.give_up(sheet, zero.low, zero.high),
-                Found::Root => {
-                    let at = sheet.polish(sheet.local(zero.at));
-                    self.push(sheet, at, &zero, Source::Inside);
-                }
+                Found::Root => match sheet.polish(sheet.local(zero.at)) {
+                    Some(at) => {
+                        let is_on_end = at.iter().any(|&x| end_of(x) != 0.0);
+                        let source = if is_on_end { Source::OnEnd } else { Source::Inside };
+                        self.push(sheet, at, &zero, source);
+                    }
+                    None => self.give_up(sheet, zero.low, zero.high),
+                },
                 Found::Flat => self.push(sheet, sheet.local(zero.at), &zero, Source::Flat),
             }
         }
@@ -339,9 +379,10 @@ impl<'a> Search<'a> {
             self.give_up(sheet, both(0.0), both(1.0));
             return;
         }
-        let is_flat = |low: f64, high: f64, size: f64| {
+        let is_flat = |low: f64, high: f64, size: f64, is_noise: bool| {
+            let width = if is_noise { high - low } else { 1.0 };
             let middle = sheet.local(both(0.5 * (low + high)));
-            sheet.is_level(sheet.variation(size * (high - low)), middle)
+            sheet.is_level(sheet.variation(size * width), middle)
         };
         let mut zeros = Vec::new();
         zeros_of(&slope.on_side(side), slope.error, &is_flat, &mut self.budget, &mut zeros);
@@ -354,13 +395,12 @@ impl<'a> Search<'a> {
             };
             match zero.found {
                 Found::Undecided => self.give_up(sheet, zero.low, zero.high),
-                Found::Root => {
-                    let at = sheet.polish_along(sheet.local(zero.at), k);
+                Found::Root => match sheet.polish_along(sheet.local(zero.at), k) {
                     // A collapsed point at the end of the side is looked at on its own.
-                    if !sheet.is_collapsed_at(at) {
-                        self.push(sheet, at, &zero, Source::Border);
-                    }
-                }
+                    Some(at) if sheet.is_collapsed_at(at) => {}
+                    Some(at) => self.push(sheet, at, &zero, Source::Border),
+                    None => self.give_up(sheet, zero.low, zero.high),
+                },
                 Found::Flat => self.flat_side(sheet, &zero, k),
             }
         }
@@ -426,11 +466,28 @@ impl<'a> Search<'a> {
 
     /// The signs that the patches around a place tell.
     fn signs(&self, at: [f64; 2]) -> Signs {
+        self.signs_along(at, [false; 2])
+    }
+
+    /// The same; along the `stationary` parameters the second derivatives count, whatever is left of the first.
+    fn signs_along(&self, at: [f64; 2], stationary: [bool; 2]) -> Signs {
         let mut signs = Signs::default();
         for (piece, local) in self.index.around(at, self.range) {
             let Some(sheet) = self.sheet(piece) else { continue };
-            let local = self.ended(at, local);
-            signs.patch(&sheet.jet(local.0), local.1, sheet.position);
+            let (local, ends) = self.ended(at, local);
+            let ends = [0, 1].map(|k| if stationary[k] { 0.5 } else { ends[k] });
+            signs.patch(&sheet.jet(local), ends, sheet.position);
+        }
+        signs
+    }
+
+    /// The signs along one parameter alone.
+    fn signs_across(&self, at: [f64; 2], k: usize) -> Signs {
+        let mut signs = Signs::default();
+        for (piece, local) in self.index.around(at, self.range) {
+            let Some(sheet) = self.sheet(piece) else { continue };
+            let (local, ends) = self.ended(at, local);
+            signs.segment(&sheet.jet(local).along(k), ends[k], sheet.position);
         }
         signs
     }

@@ -109,6 +109,22 @@ pub(super) unsafe fn optional_array<'a, T>(
     unsafe { array(name, pointer, count) }.map(Some)
 }
 
+/// As [`output`], but NULL means that it is not wanted.
+///
+/// # Safety
+/// As [`output`].
+pub(super) unsafe fn optional_output<'a, T>(
+    name: &'static str,
+    pointer: *mut T,
+    count: usize,
+) -> Result<Option<&'a mut [T]>, Failure> {
+    if pointer.is_null() {
+        return Ok(None);
+    }
+    // SAFETY: the caller vouches for it.
+    unsafe { output(name, pointer, count) }.map(Some)
+}
+
 /// Writes one value.
 ///
 /// # Safety

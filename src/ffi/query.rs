@@ -4,13 +4,14 @@
 //! the batch layer answer into the caller's records. Callbacks run on the calling thread only.
 
 use super::curve::{self, fpt_curve};
+use super::form::{CurveForm, SurfaceForm};
 use super::memory::Strided;
 use super::options::fpt_query_options;
 use super::records::{feet, fpt_foot_point};
 use super::surface::{self, fpt_surface};
 use super::{Failure, fpt_status, guard};
 use crate::batch;
-use crate::closest::{FootPoint, QueryOptions, Trace, Workspace};
+use crate::closest::{FootPoint, QueryOptions, Trace};
 use crate::error::Error;
 use crate::index::{IndexedCurve, IndexedSurface};
 use std::ffi::{c_int, c_void};
@@ -37,9 +38,8 @@ pub unsafe extern "C" fn fpt_curve_closest(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle and arrays of these lengths that do not overlap.
     guard(|| unsafe {
-        let curve = curve::indexed(curve)?;
-        Batch::read(curve, points, count, options, out)?
-            .run(|c, q, h, o, w, t| c.closest(q, h.map(|[u]| u), o, w, t))
+        let curve = curve::form(curve)?;
+        Batch::read(curve, points, count, options, out)?.run(CurveForm::closest)
     })
 }
 
@@ -62,9 +62,8 @@ pub unsafe extern "C" fn fpt_curve_invert(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle and arrays of these lengths that do not overlap.
     guard(|| unsafe {
-        let curve = curve::indexed(curve)?;
-        Batch::read(curve, points, count, options, out)?
-            .run(|c, q, h, o, w, t| c.invert(q, h.map(|[u]| u), o, w, t))
+        let curve = curve::form(curve)?;
+        Batch::read(curve, points, count, options, out)?.run(CurveForm::invert)
     })
 }
 
@@ -90,8 +89,8 @@ pub unsafe extern "C" fn fpt_surface_closest(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle and arrays of these lengths that do not overlap.
     guard(|| unsafe {
-        let surface = surface::indexed(surface)?;
-        Batch::read(surface, points, count, options, out)?.run(IndexedSurface::closest)
+        let surface = surface::form(surface)?;
+        Batch::read(surface, points, count, options, out)?.run(SurfaceForm::closest)
     })
 }
 
@@ -114,8 +113,8 @@ pub unsafe extern "C" fn fpt_surface_invert(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle and arrays of these lengths that do not overlap.
     guard(|| unsafe {
-        let surface = surface::indexed(surface)?;
-        Batch::read(surface, points, count, options, out)?.run(IndexedSurface::invert)
+        let surface = surface::form(surface)?;
+        Batch::read(surface, points, count, options, out)?.run(SurfaceForm::invert)
     })
 }
 
@@ -125,6 +124,36 @@ pub(super) trait Shape<const N: usize>: Sync {
     fn ends(&self) -> [[f64; 2]; N];
     fn check_restriction(&self, domain: [f64; 4]) -> Result<(), Error>;
     fn build(&self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error>;
+}
+
+impl Shape<1> for CurveForm {
+    fn ends(&self) -> [[f64; 2]; 1] {
+        let (start, end) = self.domain();
+        [[start, end]]
+    }
+
+    fn check_restriction(&self, domain: [f64; 4]) -> Result<(), Error> {
+        self.check_domain(domain)
+    }
+
+    fn build(&self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error> {
+        self.prepare(poll)
+    }
+}
+
+impl Shape<2> for SurfaceForm {
+    fn ends(&self) -> [[f64; 2]; 2] {
+        let [u0, u1, v0, v1] = self.domain();
+        [[u0, u1], [v0, v1]]
+    }
+
+    fn check_restriction(&self, domain: [f64; 4]) -> Result<(), Error> {
+        self.check_domain(domain)
+    }
+
+    fn build(&self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error> {
+        self.prepare(poll)
+    }
 }
 
 impl Shape<1> for IndexedCurve {
@@ -158,26 +187,28 @@ impl Shape<2> for IndexedSurface {
 }
 
 /// One operation on one query point.
-type Ask<S, const N: usize> = fn(
-    &S,
-    [f64; 3],
-    Option<[f64; N]>,
-    &QueryOptions,
-    &mut Workspace,
-    Option<Trace<'_>>,
-) -> FootPoint;
+pub(super) trait Ask<S, W, const N: usize>:
+    Fn(&S, [f64; 3], Option<[f64; N]>, &QueryOptions, &mut W, Option<Trace<'_>>) -> FootPoint + Sync
+{
+}
+
+impl<S, W, F, const N: usize> Ask<S, W, N> for F where
+    F: Fn(&S, [f64; 3], Option<[f64; N]>, &QueryOptions, &mut W, Option<Trace<'_>>) -> FootPoint
+        + Sync
+{
+}
 
 /// The checked arguments of one call.
-struct Batch<'a, S, const N: usize> {
-    shape: &'a S,
-    points: Strided<'a, 3>,
+pub(super) struct Batch<'a, S, const N: usize> {
+    pub(super) shape: &'a S,
+    pub(super) points: Strided<'a, 3>,
     hints: Option<Strided<'a, N>>,
     /// Start and end of each parameter, restricted: where hints are moved to.
     ends: [[f64; 2]; N],
-    options: QueryOptions,
+    pub(super) options: QueryOptions,
     threads: usize,
-    callbacks: Callbacks,
-    out: &'a mut [FootPoint],
+    pub(super) callbacks: Callbacks,
+    pub(super) out: &'a mut [FootPoint],
 }
 
 impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
@@ -185,7 +216,7 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
     ///
     /// # Safety
     /// Pointers that are not NULL point to what the header asks for, for as long as the call lasts.
-    unsafe fn read(
+    pub(super) unsafe fn read(
         shape: &'a S,
         points: *const f64,
         count: usize,
@@ -212,7 +243,18 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
         }
     }
 
-    fn run(self, ask: Ask<S, N>) -> Result<(), Failure> {
+    /// Asks `ask`, one operation on one query point, for every record; `W` is what a thread works with.
+    pub(super) fn run<W: Default>(mut self, ask: impl Ask<S, W, N>) -> Result<(), Failure> {
+        self.answer(ask)?;
+        let total = self.out.len();
+        if total > 0 {
+            self.callbacks.report(total, total);
+        }
+        Ok(())
+    }
+
+    /// As [`Self::run`], without the last report: more is to be done.
+    pub(super) fn answer<W: Default>(&mut self, ask: impl Ask<S, W, N>) -> Result<(), Failure> {
         let Self { shape, points, hints, ends, options, threads, callbacks, out } = self;
         let total = out.len();
         if total == 0 {
@@ -223,16 +265,14 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
             out.fill(FootPoint::unreached());
         }
         built?;
-        let work = |i: usize, workspace: &mut Workspace| {
-            let hint = hints.and_then(|hints| hint(hints.row(i), ends));
+        let work = |i: usize, workspace: &mut W| {
+            let hint = hints.as_ref().and_then(|hints| hint(hints.row(i), *ends));
             let mut told = |step, u, v, residual| callbacks.trace(i, step, [u, v], residual);
             let trace: Option<Trace<'_>> =
                 if callbacks.trace.is_some() { Some(&mut told) } else { None };
-            ask(shape, points.row(i), hint, &options, workspace, trace)
+            ask(shape, points.row(i), hint, options, workspace, trace)
         };
-        batch::run(out, threads, &work, &mut |done| callbacks.poll(done, total))?;
-        callbacks.report(total, total);
-        Ok(())
+        Ok(batch::run(out, *threads, &work, &mut |done| callbacks.poll(done, total))?)
     }
 }
 
@@ -303,7 +343,7 @@ impl Callbacks {
         self.should_stop.is_some_and(|should_stop| unsafe { should_stop(self.user) } != 0)
     }
 
-    fn report(&self, done: usize, total: usize) {
+    pub(super) fn report(&self, done: usize, total: usize) {
         if let Some(progress) = self.progress {
             // SAFETY: as in `poll`.
             unsafe { progress(self.user, done, total) }

@@ -1,4 +1,4 @@
-//! Sets of feet: preimages, extrema, crossings with a line.
+//! Sets of feet: preimages and extrema.
 //!
 //! A set is a handle of its own: the sizes are not known beforehand. It is written when it is complete and also when the
 //! budget ran out (then with FPT_BUDGET_EXHAUSTED and the boxes that are undecided); any other failure writes nothing.
@@ -13,7 +13,6 @@ use super::{Failure, fpt_status, guard};
 use crate::closest::GREATEST_COORDINATE;
 use crate::error::Error;
 use crate::extrema::ExtremaOptions;
-use crate::preimage::Line;
 use crate::set::{FootSet, Kind, Member, Nature};
 use std::ffi::{c_int, c_void};
 use std::mem::{align_of, offset_of, size_of};
@@ -217,7 +216,7 @@ impl fpt_extrema_options {
 ///
 /// # Safety
 /// NULL or three numbers.
-unsafe fn point(name: &'static str, numbers: *const f64) -> Result<[f64; 3], Failure> {
+pub(super) unsafe fn point(name: &'static str, numbers: *const f64) -> Result<[f64; 3], Failure> {
     // SAFETY: the caller vouches for it.
     let list = unsafe { array(name, numbers, 3) }?;
     let bad = |x: &f64| !x.is_finite() || x.abs() > GREATEST_COORDINATE;
@@ -231,7 +230,7 @@ unsafe fn point(name: &'static str, numbers: *const f64) -> Result<[f64; 3], Fai
 }
 
 /// Hands a set over, complete or not.
-fn hand_over(set: FootSet, out: &mut *mut fpt_foot_set) -> Result<(), Failure> {
+pub(super) fn hand_over(set: FootSet, out: &mut *mut fpt_foot_set) -> Result<(), Failure> {
     let left = set.undecided.len();
     *out = Box::into_raw(Box::new(fpt_foot_set { set }));
     if left == 0 {
@@ -250,9 +249,11 @@ fn hand_over(set: FootSet, out: &mut *mut fpt_foot_set) -> Result<(), Failure> {
 /// @param point      3 finite numbers
 /// @param tolerance  length, finite, >= 0; 0: 1e-7 x the diagonal of the curve's box. Never less than the rounding
 ///                   of curve and point
-/// @param options    domain, budget (0: 20,000 boxes), should_stop and user count; NULL: the defaults
+/// @param options    domain, budget (0: 20,000 boxes; a shape from a callback: 100,000), should_stop and user
+///                   count; NULL: the defaults
 /// @param out        the set; release it with fpt_foot_set_free. Empty when nothing is within the tolerance
-/// @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided intervals
+/// @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided intervals; of a curve from a
+///         callback without the bounds that it takes, always, with the whole domain undecided
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
@@ -265,7 +266,7 @@ pub unsafe extern "C" fn fpt_curve_preimage(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle, three numbers, options and room for a handle.
     guard(|| unsafe {
-        let curve = curve::indexed(curve)?;
+        let curve = curve::form(curve)?;
         let query = self::point("point", point)?;
         check_length("tolerance", tolerance)?;
         let given = fpt_query_options::read(options)?;
@@ -287,9 +288,11 @@ pub unsafe extern "C" fn fpt_curve_preimage(
 /// @param point      3 finite numbers
 /// @param tolerance  length, finite, >= 0; 0: 1e-7 x the diagonal of the surface's box. Never less than the rounding
 ///                   of surface and point
-/// @param options    domain, budget (0: 20,000 boxes), should_stop and user count; NULL: the defaults
+/// @param options    domain, budget (0: 20,000 boxes; a shape from a callback: 100,000), should_stop and user
+///                   count; NULL: the defaults
 /// @param out        the set; release it with fpt_foot_set_free. Empty when nothing is within the tolerance
-/// @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided boxes
+/// @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided boxes; of a surface from a
+///         callback without the bounds that it takes, always, with the whole domain undecided
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
@@ -302,7 +305,7 @@ pub unsafe extern "C" fn fpt_surface_preimage(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle, three numbers, options and room for a handle.
     guard(|| unsafe {
-        let surface = surface::indexed(surface)?;
+        let surface = surface::form(surface)?;
         let query = self::point("point", point)?;
         check_length("tolerance", tolerance)?;
         let given = fpt_query_options::read(options)?;
@@ -323,7 +326,8 @@ pub unsafe extern "C" fn fpt_surface_preimage(
 /// @param point    3 finite numbers
 /// @param options  NULL: the defaults
 /// @param out      the set; release it with fpt_foot_set_free
-/// @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided intervals
+/// @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided intervals; of a curve from a
+///         callback without the bounds that it takes, always, with the whole domain undecided
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
@@ -335,7 +339,7 @@ pub unsafe extern "C" fn fpt_curve_extrema(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle, three numbers, options and room for a handle.
     guard(|| unsafe {
-        let curve = curve::indexed(curve)?;
+        let curve = curve::form(curve)?;
         let query = self::point("point", point)?;
         let given = fpt_extrema_options::read(options)?;
         let options = given.checked(2)?;
@@ -358,7 +362,8 @@ pub unsafe extern "C" fn fpt_curve_extrema(
 /// @param point    3 finite numbers
 /// @param options  NULL: the defaults
 /// @param out      the set; release it with fpt_foot_set_free
-/// @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided boxes
+/// @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided boxes; of a surface from a
+///         callback without the bounds that it takes, always, with the whole domain undecided
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
@@ -370,7 +375,7 @@ pub unsafe extern "C" fn fpt_surface_extrema(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle, three numbers, options and room for a handle.
     guard(|| unsafe {
-        let surface = surface::indexed(surface)?;
+        let surface = surface::form(surface)?;
         let query = self::point("point", point)?;
         let given = fpt_extrema_options::read(options)?;
         let options = given.checked(4)?;
@@ -378,110 +383,6 @@ pub unsafe extern "C" fn fpt_surface_extrema(
         let out = place("out", out)?;
         let callbacks = given.callbacks();
         let set = surface.extrema(query, &options, &mut || callbacks.poll(0, 1))?;
-        hand_over(set, out)
-    })
-}
-
-/// A line from its numbers.
-///
-/// # Safety
-/// NULL or arrays of three, three and two numbers; `reach` may be NULL.
-unsafe fn line(
-    origin: *const f64,
-    direction: *const f64,
-    reach: *const f64,
-) -> Result<Line, Failure> {
-    // SAFETY: the caller vouches for it.
-    unsafe {
-        let (origin, direction) = (point("origin", origin)?, point("direction", direction)?);
-        let reach = match reach.is_null() {
-            true => [f64::NEG_INFINITY, f64::INFINITY],
-            false => {
-                let ends = array("reach", reach, 2)?;
-                [ends[0], ends[1]]
-            }
-        };
-        let line = Line { origin, direction, reach };
-        line.check()?;
-        Ok(line)
-    }
-}
-
-/// All parameters of a curve whose point lies within a tolerance of a line, or of a part of it (a ray), with proof that
-/// none is missing, in the order along the line. The distance of a member is that from the line.
-///
-/// @param origin     3 finite numbers: a point of the line
-/// @param direction  3 finite numbers, not all 0; its length does not matter
-/// @param reach      2 numbers: least and greatest length along the direction from the origin, infinities allowed (a ray: 0
-///                   and infinity); NULL: the whole line
-/// @param tolerance  length, finite, >= 0; 0: 1e-7 x the diagonal of the curve's box
-/// @param options    as for fpt_curve_preimage
-/// @param out        the set; release it with fpt_foot_set_free
-/// @return as fpt_curve_preimage
-/// @since 0.1
-#[must_use]
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fpt_curve_on_line(
-    curve: *const fpt_curve,
-    origin: *const f64,
-    direction: *const f64,
-    reach: *const f64,
-    tolerance: f64,
-    options: *const fpt_query_options,
-    out: *mut *mut fpt_foot_set,
-) -> fpt_status {
-    // SAFETY: the header asks for a live handle, arrays of these lengths, options and room for a handle.
-    guard(|| unsafe {
-        let curve = curve::indexed(curve)?;
-        let line = self::line(origin, direction, reach)?;
-        check_length("tolerance", tolerance)?;
-        let given = fpt_query_options::read(options)?;
-        let options = given.checked(2)?;
-        check_restriction(curve, options.domain)?;
-        let out = place("out", out)?;
-        let callbacks = Callbacks::of(&given);
-        let set = curve.on_line(&line, tolerance, &options, &mut || callbacks.poll(0, 1))?;
-        hand_over(set, out)
-    })
-}
-
-/// All parameters of a surface whose point lies within a tolerance of a line, or of a part of it (a ray), with proof
-/// that none is missing, in the order along the line. The distance of a member is that from the line.
-///
-/// Crossings and touching points are members of kind point; where the line runs in the surface along a parameter
-/// line the member is an arc.
-///
-/// @param origin     3 finite numbers: a point of the line
-/// @param direction  3 finite numbers, not all 0; its length does not matter
-/// @param reach      2 numbers: least and greatest length along the direction from the origin, infinities allowed (a ray: 0
-///                   and infinity); NULL: the whole line
-/// @param tolerance  length, finite, >= 0; 0: 1e-7 x the diagonal of the surface's box
-/// @param options    as for fpt_surface_preimage
-/// @param out        the set; release it with fpt_foot_set_free
-/// @return as fpt_surface_preimage
-/// @since 0.1
-#[must_use]
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fpt_surface_on_line(
-    surface: *const fpt_surface,
-    origin: *const f64,
-    direction: *const f64,
-    reach: *const f64,
-    tolerance: f64,
-    options: *const fpt_query_options,
-    out: *mut *mut fpt_foot_set,
-) -> fpt_status {
-    // SAFETY: the header asks for a live handle, arrays of these lengths, options and room for a handle.
-    guard(|| unsafe {
-        let surface = surface::indexed(surface)?;
-        let line = self::line(origin, direction, reach)?;
-        check_length("tolerance", tolerance)?;
-        let given = fpt_query_options::read(options)?;
-        let options = given.checked(4)?;
-        check_restriction(surface, options.domain)?;
-        let out = place("out", out)?;
-        let callbacks = Callbacks::of(&given);
-        let set = surface.on_line(&line, tolerance, &options, &mut || callbacks.poll(0, 1))?;
         hand_over(set, out)
     })
 }

@@ -45,8 +45,18 @@ impl SurfaceIndex {
         let of_v = |k: usize| self.patches[k].v;
         let rows = spans_at(rows, of_u, at[0], [range[0], range[1]], self.closed[0]);
         let columns = spans_at(self.columns, of_v, at[1], [range[2], range[3]], self.closed[1]);
-        let pairs = rows.iter().flat_map(|row| columns.iter().map(move |column| (row, column)));
-        pairs.map(|(&(a, s), &(b, t))| (a * self.columns + b, [s, t])).collect()
+        let mut found = Vec::with_capacity(4);
+        for &(a, s) in &rows {
+            for &(b, t) in &columns {
+                let piece = a * self.columns + b;
+                // Inside a span each patch has its own balance of the parameters.
+                let inside = |x: f64, own: f64| if x == 0.0 || x == 1.0 { x } else { own };
+                let patch = &self.patches[piece];
+                let local = [inside(s, patch.u.local(at[0])), inside(t, patch.v.local(at[1]))];
+                found.push((piece, local));
+            }
+        }
+        found
     }
 }
 

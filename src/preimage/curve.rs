@@ -1,7 +1,7 @@
 //! Preimages on curves.
 
-use super::walk::{Part, Sheet, search};
-use super::{Line, Place, Request, Target, budget, members, nothing_decided};
+use super::walk::{Memory, Part, Sheet, search};
+use super::{GREATEST_REACH, Line, Place, Request, Target, budget, members, nothing_decided};
 use crate::bezier::Bidegree;
 use crate::bounds::{Vector, dot, norm, scaled, sub};
 use crate::closest::{FootPoint, QueryOptions, rounding_floor};
@@ -50,45 +50,70 @@ impl IndexedCurve {
         poll: &mut dyn FnMut() -> bool,
     ) -> Result<FootSet, Error> {
         let index = self.index(poll)?;
-        let range = self.restricted(options.domain);
-        let base = target.base(&index.frame);
-        let q = index.frame.enter(base);
-        if !q.iter().all(|x| x.abs() <= 1e60) {
-            return Ok(nothing_decided([range[0], range[1], 0.0, 0.0]));
+        if poll() {
+            return Err(Error::Cancelled);
         }
-        let steps = position_steps(index.degree());
-        let worst = position_error(steps, index.is_rational(), 2.0, norm(q) + 2.0, norm(q));
-        let floor = rounding_floor(&index.frame, base, worst);
-        let request = Request::new(target, tolerance, &index.frame, floor);
-        let search = Search { shape: self, index, request, base: q, range, steps };
-        search.run(budget(options), poll)
+        let range = self.restricted(options.domain);
+        match Search::new(self, index, target, tolerance, range) {
+            Some(search) => search.run(budget(options), poll),
+            None => Ok(nothing_decided([range[0], range[1], 0.0, 0.0])),
+        }
     }
 }
 
-struct Search<'a> {
+/// One request on a curve.
+pub struct Search<'a> {
     shape: &'a IndexedCurve,
-    index: &'a CurveIndex,
-    request: Request,
+    /// Its index.
+    pub index: &'a CurveIndex,
+    /// What is asked for.
+    pub request: Request,
     /// The target's base point in the index's coordinates.
     base: Vector,
-    range: [f64; 2],
+    /// Searched part of the domain.
+    pub range: [f64; 2],
     steps: f64,
 }
 
 impl<'a> Search<'a> {
+    /// Prepares a search; `None` when the target is so far away that products overflow.
+    pub fn new(
+        shape: &'a IndexedCurve,
+        index: &'a CurveIndex,
+        target: Target,
+        tolerance: f64,
+        range: [f64; 2],
+    ) -> Option<Self> {
+        let point = target.base(&index.frame);
+        let base = index.frame.enter(point);
+        let steps = position_steps(index.degree());
+        let size = norm(base);
+        let worst = position_error(steps, index.is_rational(), 2.0, size + 2.0, size);
+        let floor = rounding_floor(&index.frame, point, worst);
+        let request = Request::new(target, tolerance, &index.frame, floor);
+        let near = base.iter().all(|x| x.abs() <= GREATEST_REACH);
+        near.then_some(Self { shape, index, request, base, range, steps })
+    }
+
+    /// How far along the line the base point is from the line's origin.
+    pub fn origin(&self) -> f64 {
+        self.request.target.along(self.request.target.base(&self.index.frame))
+    }
+
     fn run(&self, budget: u64, poll: &mut dyn FnMut() -> bool) -> Result<FootSet, Error> {
         let (mut budget, mut set, mut parts) = (budget, FootSet::default(), Vec::new());
+        let mut memory = Memory::default();
         for k in 0..self.index.segments.len() {
             if k % 256 == 255 && poll() {
                 return Err(Error::Cancelled);
             }
             let Some(sheet) = self.sheet(k) else { continue };
-            let found = search(&sheet, &mut budget);
-            set.undecided.extend(found.undecided.into_iter().map(|area| self.area(k, area)));
-            parts.extend(found.parts.into_iter().map(|part| Part {
+            search(&sheet, &mut memory, &mut budget);
+            set.undecided.extend(memory.undecided.iter().map(|area| self.area(k, *area)));
+            parts.extend(memory.parts.iter().map(|part| Part {
                 area: self.area(k, part.area),
                 at: [self.parameter(k, part.at[1]), 0.0],
-                ..part
+                ..*part
             }));
         }
         set.members = members(&parts, self, &self.request);
@@ -96,7 +121,7 @@ impl<'a> Search<'a> {
     }
 
     /// The segment as the walk takes it; `None` when it is outside the range or out of reach.
-    fn sheet(&self, k: usize) -> Option<Sheet<'a>> {
+    pub fn sheet(&self, k: usize) -> Option<Sheet<'a>> {
         let segment = &self.index.segments[k];
         let range = segment.u.cover(self.range);
         let base = sub(self.base, segment.center);
@@ -111,7 +136,7 @@ impl<'a> Search<'a> {
         let position =
             position_error(self.steps, rational, segment.radius, norm(base), norm(self.base));
         let net = self.index.net(k);
-        let origin = target.along(target.base(&self.index.frame));
+        let origin = self.origin();
         Some(Sheet {
             poles: net.poles,
             degree: Bidegree { s: 0, t: net.degree },
@@ -125,12 +150,13 @@ impl<'a> Search<'a> {
         })
     }
 
-    fn parameter(&self, k: usize, t: f64) -> f64 {
+    /// The caller's parameter of a place in segment `k`.
+    pub fn parameter(&self, k: usize, t: f64) -> f64 {
         self.index.segments[k].u.global(t).clamp(self.range[0], self.range[1])
     }
 
     /// An area in the caller's parameters, rounded outward; ends of segments come out exactly.
-    fn area(&self, k: usize, area: [f64; 4]) -> [f64; 4] {
+    pub fn area(&self, k: usize, area: [f64; 4]) -> [f64; 4] {
         let span = self.index.segments[k].u;
         let exact = |x: f64| x == 0.0 || x == 1.0;
         let (low, high) = (span.global(area[2]), span.global(area[3]));
@@ -163,6 +189,10 @@ impl Place for Search<'_> {
         let high = span.local(area[1]).min(sheet.range[3]);
         let (found, _) = sheet.best([0.0, local], [0.0, 1.0, low, high]);
         [self.parameter(k, found[1]).clamp(area[0], area[1]), 0.0]
+    }
+
+    fn knots(&self, _: usize) -> Vec<f64> {
+        self.index.segments.iter().map(|s| s.u.ends[0]).collect()
     }
 
     fn flat(&self, at: [f64; 2], area: [f64; 4]) -> [bool; 2] {

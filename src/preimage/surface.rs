@@ -1,7 +1,7 @@
 //! Preimages on surfaces.
 
-use super::walk::{Part, Sheet, search};
-use super::{Line, Place, Request, Target, budget, members, nothing_decided};
+use super::walk::{Memory, Part, Sheet, search};
+use super::{GREATEST_REACH, Line, Place, Request, Target, budget, members, nothing_decided};
 use crate::bounds::{Vector, dot, norm, scaled, sub};
 use crate::closest::{FootPoint, QueryOptions, Workspace, local_interval, rounding_floor};
 use crate::error::Error;
@@ -49,46 +49,71 @@ impl IndexedSurface {
         poll: &mut dyn FnMut() -> bool,
     ) -> Result<FootSet, Error> {
         let index = self.index(poll)?;
-        let range = self.restricted(options.domain);
-        let base = target.base(&index.frame);
-        let q = index.frame.enter(base);
-        if !q.iter().all(|x| x.abs() <= 1e60) {
-            return Ok(nothing_decided(range));
+        if poll() {
+            return Err(Error::Cancelled);
         }
-        let steps = position_steps(index.degree.s + index.degree.t);
-        let worst = position_error(steps, index.rational, 2.0, norm(q) + 2.0, norm(q));
-        let floor = rounding_floor(&index.frame, base, worst);
-        let request = Request::new(target, tolerance, &index.frame, floor);
-        let search = Search { shape: self, index, request, base: q, range, steps };
-        search.run(budget(options), poll)
+        let range = self.restricted(options.domain);
+        match Search::new(self, index, target, tolerance, range) {
+            Some(search) => search.run(budget(options), poll),
+            None => Ok(nothing_decided(range)),
+        }
     }
 }
 
-struct Search<'a> {
+/// One request on a surface.
+pub struct Search<'a> {
     shape: &'a IndexedSurface,
-    index: &'a SurfaceIndex,
-    request: Request,
+    /// Its index.
+    pub index: &'a SurfaceIndex,
+    /// What is asked for.
+    pub request: Request,
     /// The target's base point in the index's coordinates.
     base: Vector,
-    range: [f64; 4],
+    /// Searched part of the domain.
+    pub range: [f64; 4],
     steps: f64,
 }
 
 impl<'a> Search<'a> {
+    /// Prepares a search; `None` when the target is so far away that products overflow.
+    pub fn new(
+        shape: &'a IndexedSurface,
+        index: &'a SurfaceIndex,
+        target: Target,
+        tolerance: f64,
+        range: [f64; 4],
+    ) -> Option<Self> {
+        let point = target.base(&index.frame);
+        let base = index.frame.enter(point);
+        let steps = position_steps(index.degree.s + index.degree.t);
+        let size = norm(base);
+        let worst = position_error(steps, index.rational, 2.0, size + 2.0, size);
+        let floor = rounding_floor(&index.frame, point, worst);
+        let request = Request::new(target, tolerance, &index.frame, floor);
+        let near = base.iter().all(|x| x.abs() <= GREATEST_REACH);
+        near.then_some(Self { shape, index, request, base, range, steps })
+    }
+
+    /// How far along the line the base point is from the line's origin.
+    pub fn origin(&self) -> f64 {
+        self.request.target.along(self.request.target.base(&self.index.frame))
+    }
+
     fn run(&self, budget: u64, poll: &mut dyn FnMut() -> bool) -> Result<FootSet, Error> {
         let (mut budget, mut set, mut parts) = (budget, FootSet::default(), Vec::new());
+        let mut memory = Memory::default();
         for (count, k) in self.near_patches().into_iter().enumerate() {
             if count % 64 == 63 && poll() {
                 return Err(Error::Cancelled);
             }
             let Some(sheet) = self.sheet(k) else { continue };
-            let found = search(&sheet, &mut budget);
+            search(&sheet, &mut memory, &mut budget);
             let of = |area: [f64; 4]| self.area(k, area);
-            set.undecided.extend(found.undecided.into_iter().map(of));
-            parts.extend(found.parts.into_iter().map(|part| Part {
+            set.undecided.extend(memory.undecided.iter().map(|area| of(*area)));
+            parts.extend(memory.parts.iter().map(|part| Part {
                 area: self.area(k, part.area),
                 at: self.parameters(k, part.at),
-                ..part
+                ..*part
             }));
         }
         set.members = members(&parts, self, &self.request);
@@ -99,14 +124,7 @@ impl<'a> Search<'a> {
     fn near_patches(&self) -> Vec<usize> {
         let reach = self.request.tolerance * self.index.frame.scale * (1.0 + 1e-9) + 1e-14;
         if let Target::Line(_) = self.request.target {
-            let direction = self.request.target.direction().unwrap_or([0.0; 3]);
-            let across = |k: &usize| {
-                let patch = &self.index.patches[*k];
-                let r = sub(patch.center, self.base);
-                let r = norm(sub(r, scaled(direction, dot(r, direction))));
-                r <= (patch.radius + patch.spread + reach) * (1.0 + 1e-9) + 1e-12
-            };
-            return (0..self.index.patches.len()).filter(across).collect();
+            return (0..self.index.patches.len()).filter(|&k| self.is_near_line(k)).collect();
         }
         let mut workspace = Workspace::default();
         let queue = workspace.queue();
@@ -124,7 +142,18 @@ impl<'a> Search<'a> {
         list
     }
 
-    fn sheet(&self, k: usize) -> Option<Sheet<'a>> {
+    /// Whether the line may come within the tolerance of patch `k`.
+    pub fn is_near_line(&self, k: usize) -> bool {
+        let direction = self.request.target.direction().unwrap_or([0.0; 3]);
+        let patch = &self.index.patches[k];
+        let reach = self.request.tolerance * self.index.frame.scale;
+        let r = sub(patch.center, self.base);
+        let r = norm(sub(r, scaled(direction, dot(r, direction))));
+        r <= (patch.radius + patch.spread + reach) * (1.0 + 1e-9) + 1e-12
+    }
+
+    /// Patch `k` as the walk takes it; `None` when it is outside the range.
+    pub fn sheet(&self, k: usize) -> Option<Sheet<'a>> {
         let patch = &self.index.patches[k];
         let s = local_interval(patch.u, [self.range[0], self.range[1]])?;
         let t = local_interval(patch.v, [self.range[2], self.range[3]])?;
@@ -134,7 +163,7 @@ impl<'a> Search<'a> {
         let position =
             position_error(self.steps, rational, patch.radius, norm(base), norm(self.base));
         let net = self.index.net(k);
-        let origin = self.request.target.along(self.request.target.base(&self.index.frame));
+        let origin = self.origin();
         Some(Sheet {
             poles: net.poles,
             degree: net.degree,
@@ -150,7 +179,8 @@ impl<'a> Search<'a> {
         })
     }
 
-    fn parameters(&self, k: usize, at: [f64; 2]) -> [f64; 2] {
+    /// The caller's parameters of a place in patch `k`.
+    pub fn parameters(&self, k: usize, at: [f64; 2]) -> [f64; 2] {
         let patch = &self.index.patches[k];
         [
             patch.u.global(at[0]).clamp(self.range[0], self.range[1]),
@@ -159,7 +189,7 @@ impl<'a> Search<'a> {
     }
 
     /// An area in the caller's parameters, rounded outward; ends of patches come out exactly.
-    fn area(&self, k: usize, area: [f64; 4]) -> [f64; 4] {
+    pub fn area(&self, k: usize, area: [f64; 4]) -> [f64; 4] {
         let patch = &self.index.patches[k];
         let outward = |span: crate::index::Span, x: f64, up: bool| {
             let u = span.global(x);
@@ -206,6 +236,14 @@ impl Place for Search<'_> {
         let (found, _) = sheet.best(local, range);
         let found = self.parameters(k, found);
         [found[0].clamp(area[0], area[1]), found[1].clamp(area[2], area[3])]
+    }
+
+    fn knots(&self, k: usize) -> Vec<f64> {
+        let (patches, columns) = (&self.index.patches, self.index.columns);
+        if k == 0 {
+            return patches.iter().step_by(columns).map(|p| p.u.ends[0]).collect();
+        }
+        patches[..columns].iter().map(|p| p.v.ends[0]).collect()
     }
 
     fn flat(&self, at: [f64; 2], area: [f64; 4]) -> [bool; 2] {

@@ -10,8 +10,9 @@ use crate::refine::{CurveJets, Method, SurfaceJets, foot_on_curve, foot_on_surfa
 /// Boxes narrower than this are not halved any more.
 const LEAST_WIDTH: f64 = 1e-14;
 
-/// A box whose image is smaller than this share of the tolerance is kept as a whole.
-const SMALL_IMAGE: f64 = 0.125;
+/// A box whose image is smaller than this share of the tolerance is kept as a whole when its middle is within the
+/// tolerance (the first), or in any case (the second).
+const SMALL_IMAGE: [f64; 2] = [0.5, 1.0 / 64.0];
 
 /// A part of the answer: an area in the caller's parameters, its best place and the distance there.
 #[derive(Clone, Copy, Debug)]
@@ -22,6 +23,8 @@ pub struct Part {
     pub at: [f64; 2],
     /// Distance there.
     pub distance: f64,
+    /// Least and greatest length along the line, from the base point, of a box that holds the part.
+    pub along: [f64; 2],
 }
 
 /// A piece as the target sees it.
@@ -47,31 +50,41 @@ pub struct Sheet<'a> {
     pub tolerance: f64,
 }
 
-/// What a walk leaves: areas in local parameters.
-#[derive(Default)]
-pub struct Found {
+/// What a walk works with and leaves, areas in local parameters. Reused: nothing is allocated once it has grown.
+#[derive(Clone, Debug, Default)]
+pub struct Memory {
     /// Parts of the answer.
     pub parts: Vec<Part>,
     /// Areas that were not decided.
     pub undecided: Vec<[f64; 4]>,
+    waiting: Vec<[f64; 4]>,
+    net: Net,
 }
 
-/// Searches a piece.
-pub fn search(sheet: &Sheet, budget: &mut u64) -> Found {
-    let mut found = Found::default();
-    let mut waiting = vec![sheet.range];
-    let mut net = Net::default();
+/// Searches a piece; what it finds replaces what the memory held.
+pub fn search(sheet: &Sheet, memory: &mut Memory, budget: &mut u64) {
+    let Memory { parts, undecided, waiting, net } = memory;
+    parts.clear();
+    undecided.clear();
+    waiting.clear();
+    waiting.push(sheet.range);
     while let Some(area) = waiting.pop() {
         net.load(sheet, area);
-        match judge(sheet, &mut net, area) {
+        match judge(sheet, net, area) {
             Verdict::Closed => {}
-            Verdict::Part(part) => found.parts.push(part),
+            Verdict::Part(mut part) => {
+                if sheet.direction.is_some() {
+                    net.load(sheet, part.area);
+                    part.along = net.along;
+                }
+                parts.push(part);
+            }
             Verdict::Again(smaller) => waiting.push(smaller),
             Verdict::Halve(k) => {
                 let middle = 0.5 * (area[2 * k] + area[2 * k + 1]);
                 let stuck = middle <= area[2 * k] || middle >= area[2 * k + 1];
                 if *budget == 0 || stuck || area[2 * k + 1] - area[2 * k] < LEAST_WIDTH {
-                    found.undecided.push(area);
+                    undecided.push(area);
                     continue;
                 }
                 *budget -= 1;
@@ -82,7 +95,6 @@ pub fn search(sheet: &Sheet, budget: &mut u64) -> Found {
             }
         }
     }
-    found
 }
 
 enum Verdict {
@@ -93,7 +105,7 @@ enum Verdict {
 }
 
 /// The net of a box, seen from the target: r (three components) and W.
-#[derive(Default)]
+#[derive(Clone, Debug, Default)]
 struct Net {
     values: Vec<f64>,
     count: usize,
@@ -101,6 +113,8 @@ struct Net {
     places: Vec<Vector>,
     /// Greatest |r| / W.
     radius: f64,
+    /// Least and greatest length along the line.
+    along: [f64; 2],
     squares: Vec<f64>,
     scratch: Vec<f64>,
 }
@@ -119,9 +133,13 @@ impl Net {
         let (xyz, w) = self.values.split_at_mut(3 * count);
         self.places.clear();
         let mut greatest: f64 = 0.0;
+        self.along = [f64::INFINITY, f64::NEG_INFINITY];
         for k in 0..count {
             let x = [xyz[k], xyz[count + k], xyz[2 * count + k]];
-            let r = sheet.seen(sub(x, scaled(sheet.base, w[k])));
+            let r = sub(x, scaled(sheet.base, w[k]));
+            let along = sheet.direction.map_or(0.0, |d| dot(r, d) / w[k]);
+            self.along = [self.along[0].min(along), self.along[1].max(along)];
+            let r = sheet.seen(r);
             (0..3).for_each(|c| xyz[c * count + k] = r[c]);
             let place = scaled(r, 1.0 / w[k]);
             greatest = greatest.max(dot(place, place));
@@ -186,27 +204,6 @@ impl Sheet<'_> {
         self.degree.s == 0
     }
 
-    /// Whether the whole box lies outside the part of the line that counts.
-    fn is_off_reach(&self, area: [f64; 4], slack: f64) -> bool {
-        let Some(d) = self.direction else { return false };
-        if self.reach == [f64::NEG_INFINITY, f64::INFINITY] {
-            return false;
-        }
-        let count = self.degree.count();
-        let mut net = self.poles.to_vec();
-        net.resize(4 * count, 1.0);
-        let components = if self.rational { 4 } else { 3 };
-        for component in net.chunks_exact_mut(count).take(components) {
-            cut_2d(component, self.degree, [area[0], area[1]], [area[2], area[3]]);
-        }
-        let along = |k: usize| {
-            let x = [net[k], net[count + k], net[2 * count + k]];
-            dot(d, x) / net[3 * count + k] - dot(d, self.base)
-        };
-        (0..count).all(|k| along(k) < self.reach[0] - slack)
-            || (0..count).all(|k| along(k) > self.reach[1] + slack)
-    }
-
     /// The best place in an area by local iteration, with the distance there.
     fn foot(&self, start: [f64; 2], area: [f64; 4]) -> ([f64; 2], Jet2) {
         if self.is_curve() {
@@ -266,11 +263,11 @@ fn judge(sheet: &Sheet, net: &mut Net, area: [f64; 4]) -> Verdict {
     if size > 0.0 && net.is_beyond(scaled(mean, 1.0 / size), reach * (1.0 + 32.0 * HALF_ULP)) {
         return Verdict::Closed;
     }
-    if sheet.is_off_reach(area, reach) {
+    if net.along[1] < sheet.reach[0] - reach || net.along[0] > sheet.reach[1] + reach {
         return Verdict::Closed;
     }
     if net.radius + 2.0 * sheet.position <= sheet.tolerance {
-        return whole(sheet, area);
+        return Verdict::Part(middle(sheet, area, net.along));
     }
     net.square(sheet.degree);
     let half = net.squares.len() / 2;
@@ -286,22 +283,26 @@ fn judge(sheet: &Sheet, net: &mut Net, area: [f64; 4]) -> Verdict {
             return verdict;
         }
     }
-    if 2.0 * net.size() <= SMALL_IMAGE * sheet.tolerance {
-        return whole(sheet, area);
+    let image = 2.0 * net.size();
+    if image <= SMALL_IMAGE[0] * sheet.tolerance {
+        let part = middle(sheet, area, net.along);
+        if part.distance <= sheet.tolerance || image <= SMALL_IMAGE[1] * sheet.tolerance {
+            return Verdict::Part(part);
+        }
     }
     let [s, t] = net.steps(sheet.degree);
     Verdict::Halve(usize::from(sheet.is_curve() || t >= s))
 }
 
-/// The whole area belongs to the answer.
-fn whole(sheet: &Sheet, area: [f64; 4]) -> Verdict {
+/// The whole area as a part of the answer, seen from its middle.
+fn middle(sheet: &Sheet, area: [f64; 4], along: [f64; 2]) -> Part {
     let at = [0.5 * (area[0] + area[1]), 0.5 * (area[2] + area[3])];
     let jet = if sheet.is_curve() {
         CurveJets::jet(sheet, at[1]).d
     } else {
         SurfaceJets::jet(sheet, at[0], at[1]).d
     };
-    Verdict::Part(Part { area, at, distance: norm(jet) })
+    Part { area, at, distance: norm(jet), along }
 }
 
 /// Where `h = N - tolerance^2 C` is convex its negative part is one connected set around the foot, inside an ellipse
@@ -347,7 +348,7 @@ fn convex(sheet: &Sheet, net: &mut Net, area: [f64; 4], error: f64) -> Option<Ve
         inverse[0] * x + inverse[1] * y + (room * inverse[0]).sqrt(),
         inverse[1] * x + inverse[2] * y + (room * inverse[2]).sqrt(),
     ];
-    Some(enclosed(sheet, area, at, extents, norm(jet.d)))
+    Some(enclosed(sheet, area, at, extents, (norm(jet.d), net.along)))
 }
 
 /// The slope that can lower `h` at the foot and a lower bound of `h` there, in the area's unit parameters.
@@ -377,7 +378,7 @@ fn enclosed(
     area: [f64; 4],
     at: [f64; 2],
     extents: [f64; 2],
-    distance: f64,
+    (distance, along): (f64, [f64; 2]),
 ) -> Verdict {
     let mut smaller = area;
     let mut shrinks = false;
@@ -396,5 +397,5 @@ fn enclosed(
     if shrinks && wide {
         return Verdict::Again(smaller);
     }
-    Verdict::Part(Part { area: smaller, at, distance })
+    Verdict::Part(Part { area: smaller, at, distance, along })
 }

@@ -4,6 +4,9 @@ use super::{Found, LEAST_WIDTH, Zero, push_root, spend};
 use crate::bezier::{Bidegree, halve_t};
 use crate::bounds::{HALF_ULP, extent};
 
+/// Values below this many allowances are rounding: halving does not tell more about them.
+const NOISE: f64 = 4.0;
+
 struct Interval {
     low: f64,
     high: f64,
@@ -12,12 +15,12 @@ struct Interval {
 
 /// Appends all zeros on [0, 1] of the polynomial with these coefficients to `out`.
 ///
-/// `error` bounds how far the coefficients may be off. `is_flat(low, high, size)` is asked whether values of at most `size`
-/// on an interval are none; then the interval is closed as a whole. Flat intervals that touch come out as one.
+/// `error` bounds how far the coefficients may be off. `is_flat(low, high, size, is_noise)` is asked whether values of at
+/// most `size` on an interval are none (`is_noise`: rounding is as large as they are); then the interval is closed as a whole. Flat intervals that touch come out as one.
 pub fn zeros_of(
     coefficients: &[f64],
     error: f64,
-    is_flat: &dyn Fn(f64, f64, f64) -> bool,
+    is_flat: &dyn Fn(f64, f64, f64, bool) -> bool,
     budget: &mut u64,
     out: &mut Vec<Zero<1>>,
 ) {
@@ -34,11 +37,12 @@ pub fn zeros_of(
             continue;
         }
         let (low, high, width) = (interval.low, interval.high, interval.high - interval.low);
+        let size = least.abs().max(most.abs());
         if is_monotone(g, 2.0 * interval.error) {
             let (x, slope) = root(g);
             let radius = 4.0 * (interval.error / slope + 4.0 * HALF_ULP) * width + 4.0 * HALF_ULP;
             push_root(out, first, Zero::root([low + x * width], radius));
-        } else if is_flat(low, high, least.abs().max(most.abs())) {
+        } else if is_flat(low, high, size, size <= NOISE * interval.error) {
             push_flat(out, first, low, high);
         } else if width < LEAST_WIDTH || !spend(budget) {
             out.push(Zero::area(Found::Undecided, [low], [high]));
@@ -87,7 +91,7 @@ fn root(g: &[f64]) -> (f64, f64) {
     let share = (g[0] / (g[0] - g[g.len() - 1])).clamp(0.0, 1.0);
     let mut x = if share.is_finite() { share } else { 0.5 };
     let mut slope = 0.0;
-    for _ in 0..60 {
+    for _ in 0..100 {
         let (value, derivative) = value_and_slope(g, x);
         slope = derivative;
         if value == 0.0 {
@@ -99,9 +103,8 @@ fn root(g: &[f64]) -> (f64, f64) {
             low = x
         }
         let newton = x - value / derivative;
-        let next = if newton > low && newton < high { newton } else { newton.clamp(low, high) };
-        let stuck = next == low || next == high;
-        let next = if stuck && low > 0.0 && high < 1.0 { 0.5 * (low + high) } else { next };
+        let inside = newton > low && newton < high;
+        let next = if inside { newton } else { 0.5 * (low + high) };
         if (next - x).abs() <= 2.0 * HALF_ULP {
             x = next;
             break;
@@ -134,7 +137,7 @@ mod tests {
 
     fn found(g: &[f64]) -> Vec<Zero<1>> {
         let mut out = Vec::new();
-        zeros_of(g, 1e-15, &|a, b, size| size * (b - a) < 1e-12, &mut 10_000, &mut out);
+        zeros_of(g, 1e-15, &|a, b, size, _| size * (b - a) < 1e-12, &mut 10_000, &mut out);
         out
     }
 
@@ -153,6 +156,16 @@ mod tests {
             assert_eq!(zero.found, Found::Root);
             assert!((zero.at[0] - x).abs() < 1e-14, "{zero:?}");
         }
+    }
+
+    #[test]
+    fn a_zero_in_a_steep_middle_between_flat_ends_is_found() {
+        // Newton from either end leaves the interval.
+        let g = [-1.0, -0.9999, -0.9998, -0.9997, 0.9, 0.999, 0.9999, 1.0];
+        let zeros = found(&g);
+        assert_eq!(zeros.len(), 1, "{zeros:?}");
+        let (value, _) = value_and_slope(&g, zeros[0].at[0]);
+        assert!(value.abs() < 1e-15, "{value}");
     }
 
     #[test]

@@ -9,6 +9,7 @@
 use super::{ORDER, Surface};
 use crate::basis;
 use crate::curve::binomial;
+use crate::knots::Side;
 
 /// Where the derivative `k` times by u and `l` times by v stands.
 fn place(k: usize, l: usize) -> usize {
@@ -35,29 +36,42 @@ impl Surface {
     ///
     /// `out[0]` has the same bits as `evaluate(u, v)`, whatever `count` is; `count` is at most 31.
     pub fn partials(&self, u: f64, v: f64, count: usize, out: &mut [[f64; 3]]) {
+        self.partials_on([u, v], [Side::Above; 2], count, out);
+    }
+
+    /// As [`Surface::partials`], of the piece on one side of a knot line in either direction. Below a knot the point may
+    /// differ from that of [`Surface::evaluate`] by rounding.
+    pub fn partials_on(
+        &self,
+        [u, v]: [f64; 2],
+        sides: [Side; 2],
+        count: usize,
+        out: &mut [[f64; 3]],
+    ) {
         debug_assert!(self.knots_u.contains(u), "u = {u} is outside the domain");
         debug_assert!(self.knots_v.contains(v), "v = {v} is outside the domain");
         let out = &mut out[..(count + 1) * (count + 2) / 2];
         out.fill([0.0; 3]);
+        let spans = [self.knots_u.span_on(u, sides[0]), self.knots_v.span_on(v, sides[1])];
         let widest = self.knots_u.degree().max(self.knots_v.degree()) + 1;
         if (count.min(widest - 1) + 1) * widest <= 24 {
-            self.fill_partials(u, v, count, &mut Room::<24>::new(), out);
+            self.fill_partials(spans, [u, v], count, &mut Room::<24>::new(), out);
         } else {
-            self.fill_partials(u, v, count, &mut Room::<{ ORDER * ORDER }>::new(), out);
+            let room = &mut Room::<{ ORDER * ORDER }>::new();
+            self.fill_partials(spans, [u, v], count, room, out);
         }
     }
 
     fn fill_partials<const SIZE: usize>(
         &self,
-        u: f64,
-        v: f64,
+        spans: [usize; 2],
+        [u, v]: [f64; 2],
         count: usize,
         room: &mut Room<SIZE>,
         out: &mut [[f64; 3]],
     ) {
         let (degree_u, degree_v) = (self.knots_u.degree(), self.knots_v.degree());
         let (most_u, most_v) = (count.min(degree_u), count.min(degree_v));
-        let spans = [self.knots_u.span(u), self.knots_v.span(v)];
         basis::derivatives(&self.knots_u, spans[0], u, most_u, &mut room.basis_u);
         basis::derivatives(&self.knots_v, spans[1], v, most_v, &mut room.basis_v);
         let (basis_u, basis_v) = (&room.basis_u, &room.basis_v);

@@ -7,6 +7,7 @@ use footpoint::index::{IndexedCurve, IndexedSurface};
 use footpoint::surface::Surface;
 
 /// A query with its proven distance.
+#[derive(Debug)]
 pub struct Row {
     pub query: [f64; 3],
     pub class: String,

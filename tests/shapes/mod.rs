@@ -3,7 +3,6 @@
 #![allow(dead_code, reason = "each test file uses its own part")]
 
 pub mod asked;
-pub mod search;
 
 use footpoint::curve::Curve;
 use footpoint::surface::Surface;

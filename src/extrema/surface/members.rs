@@ -1,14 +1,18 @@
 //! From candidates to members: the same place seen twice is one, continua are joined, and each is told what it is.
 
-use super::{Candidate, Search, Signs, Source};
+use super::{Candidate, Search, Sheet, Signs, Source};
 use crate::bounds::{norm, sub};
 use crate::closest::{FootPoint, flag};
 use crate::extrema::nature::from_samples;
+use crate::extrema::{BESIDE, Taken};
 use crate::extrema::{flat_limit, kind};
+use crate::refine::{Method, foot_on_surface};
 use crate::set::{Kind, Member, Nature, is_wide, joined, touch};
 
 /// How far around a flat member the distance is compared with its own, as a share of the range.
 const AROUND: f64 = 0.02;
+/// Flat boxes whose distances differ by more than this many accuracies are a chain, not a continuum.
+const CHAIN: f64 = 8.0;
 /// Samples on each side of the rectangle around it.
 const SIDE_SAMPLES: usize = 4;
 
@@ -19,53 +23,88 @@ impl Search<'_> {
             let wanted = self.candidates.iter().filter(move |c| (c.source == Source::Flat) == flat);
             wanted.copied()
         };
-        let mut flats: Vec<[f64; 4]> = Vec::new();
+        let mut members: Vec<Member> = Vec::new();
+        let mut taken: Vec<Taken> = Vec::new();
         for area in joined(areas(true).map(|c| c.area).collect()) {
-            if !flats.iter().any(|known| self.is_same(known, &area)) {
-                flats.push(area);
+            let (at, is_chain) = self.flat_place(area);
+            let member = self.flat_member(area, at, is_chain);
+            let candidate = Candidate { at, area, source: Source::Flat };
+            if !self.goes_on_across(&taken, &area) {
+                taken.push(Taken::new(&member, candidate));
+                members.push(member);
             }
         }
-        let mut members: Vec<Member> = flats.iter().map(|area| self.flat_member(*area)).collect();
         let mut points: Vec<Candidate> = areas(false).collect();
         points.sort_by_key(|c| c.source);
-        let mut taken = flats;
         for candidate in points {
-            if taken.iter().any(|area| self.is_same(area, &candidate.area)) {
+            let foot = self.foot(candidate.at);
+            if self.is_taken(&taken, &candidate, &foot) {
                 continue;
             }
-            if let Some(member) = self.point_member(&candidate) {
+            if let Some(member) = self.point_member(&candidate, foot) {
+                taken.push(Taken::new(&member, candidate));
                 members.push(member);
-                taken.push(candidate.area);
             }
         }
         members
     }
 
-    /// Whether two areas touch, across the seam too.
-    fn is_same(&self, a: &[f64; 4], b: &[f64; 4]) -> bool {
-        let [u0, u1, v0, v1] = self.range;
-        let domain = self.shape.surface().domain();
-        let period = |k: usize, length: f64| {
-            let whole = self.range[2 * k..2 * k + 2] == domain[2 * k..2 * k + 2];
-            if self.index.closed[k] && whole { length } else { 0.0 }
+    fn is_taken(&self, taken: &[Taken], candidate: &Candidate, foot: &FootPoint) -> bool {
+        let sizes = (self.index.frame.diagonal, self.accuracy);
+        let holds = |area: &[f64; 4], at: [f64; 2]| self.holds(area, at);
+        let r = self.range;
+        let beside = |at: [f64; 2]| {
+            let [du, dv] = [BESIDE * (r[1] - r[0]), BESIDE * (r[3] - r[2])];
+            self.holds(&[at[0] - du, at[0] + du, at[1] - dv, at[1] + dv], candidate.at)
         };
-        let (du, dv) = (period(0, u1 - u0), period(1, v1 - v0));
-        let moved = |i: f64, j: f64| [b[0] + i * du, b[1] + i * du, b[2] + j * dv, b[3] + j * dv];
-        let turns = [-1.0, 0.0, 1.0];
-        turns.iter().any(|&i| turns.iter().any(|&j| touch(a, &moved(i, j))))
+        taken.iter().any(|known| known.is_same(candidate, foot, sizes, holds, beside))
     }
 
-    fn point_member(&self, candidate: &Candidate) -> Option<Member> {
-        let foot = self.foot(candidate.at);
+    /// Whether an area goes on in a known flat one on the other side of a seam; then it is part of that, unless it goes all
+    /// the way round.
+    fn goes_on_across(&self, taken: &[Taken], area: &[f64; 4]) -> bool {
+        let (r, domain) = (self.range, self.shape.surface().domain());
+        (0..2).any(|k| {
+            let ends = [r[2 * k], r[2 * k + 1]];
+            let is_seam = self.index.closed[k] && ends == [domain[2 * k], domain[2 * k + 1]];
+            is_seam
+                && area[2 * k] > ends[0]
+                && area[2 * k + 1] == ends[1]
+                && taken.iter().any(|known| {
+                    let mut moved = known.candidate.area;
+                    moved[2 * k] += ends[1] - ends[0];
+                    moved[2 * k + 1] += ends[1] - ends[0];
+                    touch(&moved, area)
+                })
+        })
+    }
+
+    /// Whether a place lies in an area, across the seam too.
+    fn holds(&self, area: &[f64; 4], at: [f64; 2]) -> bool {
+        let domain = self.shape.surface().domain();
+        let r = self.range;
+        (0..2).all(|k| {
+            let (low, high) = (area[2 * k], area[2 * k + 1]);
+            let whole = r[2 * k..2 * k + 2] == domain[2 * k..2 * k + 2];
+            let period = if self.index.closed[k] && whole { r[2 * k + 1] - r[2 * k] } else { 0.0 };
+            [-period, 0.0, period].iter().any(|turn| (low..=high).contains(&(at[k] + turn)))
+        })
+    }
+
+    fn point_member(&self, candidate: &Candidate, foot: FootPoint) -> Option<Member> {
         if candidate.source == Source::Collapsed {
             let [u0, u1, v0, v1] = candidate.area;
             let kind = kind([u0 < u1, v0 < v1]);
-            let nature = self.collapsed_nature(candidate)?;
+            let nature = self.collapsed_nature(candidate);
             return Some(Member { foot, u: [u0, u1], v: [v0, v1], kind, nature });
         }
-        let signs: Signs = self.signs(candidate.at);
-        if candidate.source == Source::Border && signs.passes() {
-            return None;
+        let mut signs: Signs = self.signs(candidate.at);
+        if signs.passes() {
+            // A zero beyond the end of its piece, moved onto it: the neighbour has it, or nobody.
+            if matches!(candidate.source, Source::Border | Source::OnEnd) {
+                return None;
+            }
+            signs = self.signs_along(candidate.at, signs.passing());
         }
         let mut nature = signs.nature();
         if nature == Nature::Flat {
@@ -84,36 +123,61 @@ impl Search<'_> {
     }
 
     /// A continuum, or a zero of higher order in a small area.
-    fn flat_member(&self, area: [f64; 4]) -> Member {
+    fn flat_member(&self, area: [f64; 4], found: [f64; 2], is_chain: bool) -> Member {
         let of_u = self.index.patches.iter().step_by(self.index.columns).map(|p| p.u.ends);
         let of_v = self.index.patches[..self.index.columns].iter().map(|p| p.v.ends);
         let [u0, u1, v0, v1] = self.range;
         let flat = [
-            is_wide([area[0], area[1]], [u0, u1], of_u),
-            is_wide([area[2], area[3]], [v0, v1], of_v),
+            !is_chain && is_wide([area[0], area[1]], [u0, u1], of_u),
+            !is_chain && is_wide([area[2], area[3]], [v0, v1], of_v),
         ];
         // Along a continuum every place is as good: its start is the canonical one.
-        let found = self.flat_place(area);
-        let at = [0, 1].map(|k| if flat[k] { area[2 * k] } else { found[k] });
+        let start = [0, 1].map(|k| if flat[k] { area[2 * k] } else { found[k] });
+        let is_near = (self.distance(start) - self.distance(found)).abs() <= self.accuracy;
+        let at = if is_near { start } else { found };
         let mut foot = self.foot(at);
-        if flat != [false; 2] {
+        let is_collapsed = foot.flags & flag::COLLAPSED != 0;
+        // A collapsed edge is an arc of parameters and one point; a region is a continuum even if it begins there.
+        if flat == [true; 2] || (flat != [false; 2] && !is_collapsed) {
             foot.flags |= flag::CONTINUUM | flag::TIE;
+        }
+        if is_chain {
+            foot.flags |= flag::NOT_PROVEN;
         }
         let interval = |k: usize, x: f64| [area[2 * k].min(x), area[2 * k + 1].max(x)];
         let (u, v) = (interval(0, foot.u), interval(1, foot.v));
-        let nature = self.sampled_nature(at, area);
+        // Where a parameter does not move the point, the signs are rounding.
+        let across = match flat {
+            [true, false] if !is_collapsed => self.signs_across(at, 1).nature_across(),
+            [false, true] if !is_collapsed => self.signs_across(at, 0).nature_across(),
+            _ => None,
+        };
+        let nature = across.unwrap_or_else(|| self.sampled_nature(at, area));
         Member { foot, u, v, kind: kind(flat), nature }
     }
 
-    /// The place in a flat area where the gradient is least: Newton where the second derivatives allow it.
-    fn flat_place(&self, area: [f64; 4]) -> [f64; 2] {
-        let middle = [0.5 * (area[0] + area[1]), 0.5 * (area[2] + area[3])];
+    /// The best place in a flat area: nearest of the flat boxes' middles, then Newton where the second derivatives allow it.
+    /// Boxes that are flat one by one may form a chain that is not; then the nearest place, and true.
+    fn flat_place(&self, area: [f64; 4]) -> ([f64; 2], bool) {
+        let inside = |c: &&Candidate| c.source == Source::Flat && touch(&c.area, &area);
+        let (mut least, mut most, mut middle) = (f64::INFINITY, 0.0_f64, [area[0], area[2]]);
+        for candidate in self.candidates.iter().filter(inside) {
+            let distance = self.distance(candidate.at);
+            most = most.max(distance);
+            if distance < least {
+                (least, middle) = (distance, candidate.at);
+            }
+        }
+        let is_chain = most - least > CHAIN * self.accuracy;
         let mut at = middle;
         let pieces = self.index.around(middle, self.range);
         if let Some((sheet, mut local)) =
             pieces.first().and_then(|&(k, x)| Some((self.sheet(k)?, x)))
         {
-            for _ in 0..4 {
+            if is_chain {
+                local = self.nearest_in(&sheet, local, area);
+            }
+            for _ in 0..if is_chain { 0 } else { 4 } {
                 let jet = sheet.jet(local);
                 let step = least_norm_step(jet.hessian(), jet.metric(), jet.gradient());
                 if step.iter().any(|x| !x.is_finite()) {
@@ -128,11 +192,26 @@ impl Search<'_> {
         }
         for k in 0..4 {
             let edge = self.shape.surface().domain()[k];
-            if self.index.collapsed[k] && area[k] == edge {
-                at[k / 2] = edge;
+            let mut end = at;
+            end[k / 2] = edge;
+            let is_near = (self.distance(end) - self.distance(at)).abs() <= self.accuracy;
+            if self.index.collapsed[k] && area[k] == edge && is_near {
+                at = end;
             }
         }
-        at
+        (at, is_chain)
+    }
+
+    /// The nearest place of a patch inside an area by local iteration.
+    fn nearest_in(&self, sheet: &Sheet, start: [f64; 2], area: [f64; 4]) -> [f64; 2] {
+        let patch = &self.index.patches[sheet.piece];
+        let range = [
+            patch.u.local(area[0]).max(sheet.range[0]),
+            patch.u.local(area[1]).min(sheet.range[1]),
+            patch.v.local(area[2]).max(sheet.range[2]),
+            patch.v.local(area[3]).min(sheet.range[3]),
+        ];
+        foot_on_surface(&(sheet.net, sheet.query), start, range, Method::Auto, None).0
     }
 
     /// Compares squared distances on a rectangle around an area with that at a place in it.
@@ -181,9 +260,7 @@ impl Search<'_> {
         let domain = self.shape.surface().domain();
         for k in 0..4 {
             let Some((low, high, error)) = self.leaving[k] else { continue };
-            let rises = low > -error;
-            let falls = high < error;
-            if !rises && !falls {
+            if low < -error && high > error {
                 continue;
             }
             let other = 2 * (1 - k / 2);
@@ -192,21 +269,25 @@ impl Search<'_> {
             let mut at = [area[0], area[2]];
             at[k / 2] = domain[k];
             at[other / 2] = self.range[other];
-            let source = if rises && falls { Source::Flat } else { Source::Collapsed };
+            let is_flat = low >= -error && high <= error;
+            let source = if is_flat { Source::Flat } else { Source::Collapsed };
             self.candidates.push(Candidate { at, area, source });
         }
     }
 
-    /// Whether a member is a collapsed point, and then what it is: told by the lines that leave it.
-    pub(super) fn collapsed_nature(&self, candidate: &Candidate) -> Option<Nature> {
+    /// What a collapsed point is: told by the lines that leave it, and by samples where some of them leave level.
+    fn collapsed_nature(&self, candidate: &Candidate) -> Nature {
         let domain = self.shape.surface().domain();
-        let edge = (0..4).find(|&k| {
-            self.leaving[k].is_some()
-                && candidate.area[2 * (k / 2)] == domain[k]
-                && candidate.area[2 * (k / 2) + 1] == domain[k]
-        })?;
-        let (low, _, error) = self.leaving[edge]?;
-        Some(if low > -error { Nature::Minimum } else { Nature::Maximum })
+        let is_edge = |k: &usize| {
+            candidate.area[2 * (k / 2)] == domain[*k]
+                && candidate.area[2 * (k / 2) + 1] == domain[*k]
+        };
+        let slopes = (0..4).filter(is_edge).find_map(|k| self.leaving[k]);
+        match slopes {
+            Some((low, _, error)) if low > error => Nature::Minimum,
+            Some((_, high, error)) if high < -error => Nature::Maximum,
+            _ => self.sampled_nature(candidate.at, candidate.area),
+        }
     }
 }
 
