@@ -8,12 +8,13 @@ const HEADER: &str = "include/footpoint.h";
 /// Setting this variable writes the header instead of comparing it.
 const WRITE: &str = "FOOTPOINT_WRITE_HEADER";
 /// The files that hold the C API, in the order in which the header has them.
-const SOURCES: [&str; 10] = [
+const SOURCES: [&str; 11] = [
     "src/ffi.rs",
     "src/ffi/records.rs",
     "src/ffi/options.rs",
     "src/ffi/curve.rs",
     "src/ffi/surface.rs",
+    "src/ffi/callback.rs",
     "src/ffi/query.rs",
     "src/ffi/sets.rs",
     "src/ffi/lines.rs",

@@ -23,7 +23,8 @@
  *           any order; _free(NULL) does nothing.
  * Threads   Handles never change after _new. A function that takes a handle as const may run on any
  *           number of threads at a time. There is no global state and nothing to initialise. Callbacks
- *           run on the calling thread only, may call fpt_ functions, and must not throw or longjmp.
+ *           in options run on the calling thread only; the evaluate of a shape from a callback runs on any
+ *           thread. Both may call fpt_ functions, and must not throw or longjmp.
  * Versions  Structs that begin with struct_size grow at the end only. A struct that is longer than this
  *           library knows is accepted when the rest is zero and FPT_UNSUPPORTED otherwise. A shorter
  *           fpt_query_options that ends between two fields has defaults in the rest; shape data must
@@ -282,8 +283,9 @@ typedef enum fpt_path_change {
 
 /**
  * A curve. Immutable: any number of threads may use one at a time. The search index is built on first
- * use, by one thread while the others wait. Made by fpt_curve_new, owned by the caller, released by
- * fpt_curve_free.
+ * use, by one thread while the others wait. Made by fpt_curve_new or fpt_curve_from_callback, owned by the
+ * caller, released by fpt_curve_free. A curve from a callback has no degree, knots, poles and weights:
+ * functions that need them return FPT_UNSUPPORTED.
  */
 typedef struct fpt_curve fpt_curve;
 
@@ -295,8 +297,9 @@ typedef struct fpt_foot_set fpt_foot_set;
 
 /**
  * A surface. Immutable: any number of threads may use one at a time. The search index is built on first
- * use, by one thread while the others wait. Made by fpt_surface_new, owned by the caller, released by
- * fpt_surface_free.
+ * use, by one thread while the others wait. Made by fpt_surface_new or fpt_surface_from_callback, owned by
+ * the caller, released by fpt_surface_free. A surface from a callback has no degrees, knots, poles and
+ * weights: functions that need them return FPT_UNSUPPORTED.
  */
 typedef struct fpt_surface fpt_surface;
 
@@ -461,6 +464,93 @@ typedef struct fpt_surface_data {
      */
     const double *weights;
 } fpt_surface_data;
+
+/**
+ * A curve given by a function: the input of fpt_curve_from_callback. The numbers are copied, `user` is kept.
+ *
+ * The bounds are the caller's word. With one of them answers are proven (extrema: with second_bound only), with
+ * neither every foot carries FPT_FOOT_NOT_PROVEN and lower_bound 0. A bound that is too small makes the proofs
+ * wrong.
+ */
+typedef struct fpt_curve_callback {
+    /**
+     * sizeof(fpt_curve_callback).
+     */
+    size_t struct_size;
+    /**
+     * Writes C, C', C'' at u, x,y,z each, up to order `derivatives` (0 to 2) to `out`, which has room for
+     * 3*(derivatives + 1) numbers, and returns the highest order that it has written: 0 for the point only;
+     * orders that are missing are taken from finite differences. Negative: the function fails at u; so does one
+     * that writes numbers that are not finite or beyond 1e100. Points must be accurate to 64 ulps of the
+     * largest coordinate of the curve, derivatives to 64 ulps of themselves and of that coordinate over the
+     * length of the domain. Called in the constructor and by every function that evaluates the handle, on any
+     * thread and on several at a time; must give the same numbers for the same u, and must not throw,
+     * longjmp, or free the handle.
+     */
+    int32_t (*evaluate)(void *user, double u, uint32_t derivatives, double *out);
+    /**
+     * Handed to both functions as it is.
+     */
+    void *user;
+    /**
+     * Called once with `user` when the handle is freed. NULL: nothing to release.
+     */
+    void (*release)(void *user);
+    /**
+     * Start and end of u.
+     */
+    double domain[2];
+    /**
+     * |C'| is at most this on the whole domain; 0: unknown.
+     */
+    double speed_bound;
+    /**
+     * |C''| is at most this on the whole domain; 0: unknown. Of a line, give any small positive number.
+     */
+    double second_bound;
+} fpt_curve_callback;
+
+/**
+ * A surface given by a function: the input of fpt_surface_from_callback. The numbers are copied, `user` is kept.
+ *
+ * The bounds are the caller's word. With one kind of them answers are proven (extrema: with second_bounds only), with
+ * neither every foot carries FPT_FOOT_NOT_PROVEN and lower_bound 0. A bound that is too small makes the proofs wrong. Bounds of the
+ * second derivatives prove fast; with those of the first alone points on the surface are proven fast, but
+ * distances off the surface only roughly.
+ */
+typedef struct fpt_surface_callback {
+    /**
+     * sizeof(fpt_surface_callback).
+     */
+    size_t struct_size;
+    /**
+     * Writes S; Su,Sv; Suu,Suv,Svv at (u,v), x,y,z each, up to the total order `derivatives` (0 to 2) to
+     * `out`, which has room for 3, 9 or 18 numbers, and returns the highest order that it has written: 0 for the
+     * point only. All else as for fpt_curve_callback.evaluate.
+     */
+    int32_t (*evaluate)(void *user, double u, double v, uint32_t derivatives, double *out);
+    /**
+     * Handed to both functions as it is.
+     */
+    void *user;
+    /**
+     * Called once with `user` when the handle is freed. NULL: nothing to release.
+     */
+    void (*release)(void *user);
+    /**
+     * Start and end of u, start and end of v.
+     */
+    double domain[4];
+    /**
+     * |Su| and |Sv| are at most these on the whole domain; both 0: unknown.
+     */
+    double speed_bounds[2];
+    /**
+     * |Suu|, |Suv| and |Svv| are at most these on the whole domain; all 0: unknown (of a plane, give any
+     * small positive number). A 0 beside a positive number is a bound.
+     */
+    double second_bounds[3];
+} fpt_surface_callback;
 
 /**
  * The answer to one query: 64 bytes, frozen.
@@ -647,8 +737,10 @@ FPT_MUST_USE fpt_status fpt_curve_domain(const struct fpt_curve *curve, double *
  * domain's end the one on the left.
  *
  * @param u            in the domain, else FPT_INVALID_ARGUMENT
- * @param derivatives  highest order d, at most 31; 0: the point only
- * @param out          3*(d + 1) numbers: C, C', C'', ... with x,y,z each
+ * @param derivatives  highest order d, at most 31; 0: the point only. More than 2 of a curve from a
+ *                     callback: FPT_UNSUPPORTED
+ * @param out          3*(d + 1) numbers: C, C', C'', ... with x,y,z each. Where a callback fails:
+ *                     FPT_INVALID_ARGUMENT
  * @since 0.1
  */
 FPT_MUST_USE
@@ -664,7 +756,8 @@ fpt_status fpt_curve_evaluate(const struct fpt_curve *curve,
  * @param count        may be 0
  * @param derivatives  highest order d, at most 31
  * @param out          count*3*(d + 1) numbers, the values of parameter i at i*3*(d + 1); must not
- *                     overlap `parameters`
+ *                     overlap `parameters`. Where a callback fails: FPT_INVALID_ARGUMENT, the values
+ *                     before are written
  * @since 0.1
  */
 FPT_MUST_USE
@@ -727,7 +820,8 @@ fpt_status fpt_curve_weights(const struct fpt_curve *curve,
 
 /**
  * The box of the poles that act on the domain, in which the curve lies. Its diagonal is what the default
- * tolerance and accuracy are relative to.
+ * tolerance and accuracy are relative to. Of a curve from a callback: the box of samples, which it may
+ * leave between them.
  *
  * @param out_box  6 numbers: least x,y,z, then greatest x,y,z
  * @since 0.1
@@ -737,7 +831,7 @@ fpt_status fpt_curve_box(const struct fpt_curve *curve,
                          double *out_box);
 
 /**
- * Whether the curve has weights that differ: 1 or 0.
+ * Whether the curve has weights that differ: 1 or 0. 0 for a curve from a callback.
  * @since 0.1
  */
 FPT_MUST_USE
@@ -789,9 +883,10 @@ FPT_MUST_USE fpt_status fpt_surface_domain(const struct fpt_surface *surface, do
  *
  * @param u            in the domain, else FPT_INVALID_ARGUMENT
  * @param v            in the domain, else FPT_INVALID_ARGUMENT
- * @param derivatives  highest total order d, at most 31; 0: the point only
+ * @param derivatives  highest total order d, at most 31; 0: the point only. More than 2 of a surface
+ *                     from a callback: FPT_UNSUPPORTED
  * @param out          3*(d + 1)*(d + 2)/2 numbers, order by order: S; Su,Sv; Suu,Suv,Svv; ... with
- *                     x,y,z each
+ *                     x,y,z each. Where a callback fails: FPT_INVALID_ARGUMENT
  * @since 0.1
  */
 FPT_MUST_USE
@@ -810,7 +905,8 @@ fpt_status fpt_surface_evaluate(const struct fpt_surface *surface,
  * @param count        pairs; may be 0
  * @param derivatives  highest total order d, at most 31
  * @param out          count*n numbers with n = 3*(d + 1)*(d + 2)/2, the values of pair i at i*n; must
- *                     not overlap `parameters`
+ *                     not overlap `parameters`. Where a callback fails: FPT_INVALID_ARGUMENT, the
+ *                     values before are written
  * @since 0.1
  */
 FPT_MUST_USE
@@ -907,7 +1003,8 @@ fpt_status fpt_surface_weights(const struct fpt_surface *surface,
 
 /**
  * The box of the poles that act on the domain, in which the surface lies. Its diagonal is what the default
- * tolerance and accuracy are relative to.
+ * tolerance and accuracy are relative to. Of a surface from a callback: the box of samples, which it may
+ * leave between them.
  *
  * @param out_box  6 numbers: least x,y,z, then greatest x,y,z
  * @since 0.1
@@ -917,7 +1014,7 @@ fpt_status fpt_surface_box(const struct fpt_surface *surface,
                            double *out_box);
 
 /**
- * Whether the surface has weights that differ: 1 or 0.
+ * Whether the surface has weights that differ: 1 or 0. 0 for a surface from a callback.
  * @since 0.1
  */
 FPT_MUST_USE
@@ -959,6 +1056,40 @@ fpt_status fpt_surface_collapsed_edges(const struct fpt_surface *surface,
  */
 FPT_MUST_USE
 fpt_status fpt_surface_prepare(const struct fpt_surface *surface);
+
+/**
+ * Makes a curve from a function. It is used like any other curve; functions that need degree, knots, poles
+ * or weights return FPT_UNSUPPORTED. A query looks at 20,000 boxes of parameters by default when a bound is
+ * given (a preimage at 100,000), at 2,000 when there is none; finite differences use steps of 2^-17 of the domain for first
+ * derivatives and for derivatives of given ones, 2^-13 for second differences of points, one-sided at the
+ * ends. The function is called 129 times or more, for the box and to see whether the curve is closed.
+ *
+ * @param callback  the function and what is known about it. After a failure nothing of it is kept and
+ *                  release is not called
+ * @param out       the handle; release it with fpt_curve_free
+ * @return FPT_INVALID_ARGUMENT for a domain that is empty, not finite or too narrow for its doubles, for a
+ *         bound that is negative or not finite, or when the function fails at all samples
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_from_callback(const struct fpt_curve_callback *callback,
+                                   struct fpt_curve **out);
+
+/**
+ * Makes a surface from a function. It is used like any other surface; functions that need degrees, knots,
+ * poles or weights return FPT_UNSUPPORTED. Budget and finite differences are those of fpt_curve_from_callback. The
+ * function is called 625 times or more, for the box, for closed directions and collapsed edges.
+ *
+ * @param callback  the function and what is known about it. After a failure nothing of it is kept and
+ *                  release is not called
+ * @param out       the handle; release it with fpt_surface_free
+ * @return FPT_INVALID_ARGUMENT for a domain that is empty, not finite or too narrow for its doubles, for a
+ *         bound that is negative or not finite, or when the function fails at all samples
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_from_callback(const struct fpt_surface_callback *callback,
+                                     struct fpt_surface **out);
 
 /**
  * The nearest point of the curve for each query point, with a proven lower bound of the distance.
@@ -1050,9 +1181,11 @@ void fpt_extrema_options_init(struct fpt_extrema_options *options, size_t struct
  * @param point      3 finite numbers
  * @param tolerance  length, finite, >= 0; 0: 1e-7 x the diagonal of the curve's box. Never less than the rounding
  *                   of curve and point
- * @param options    domain, budget (0: 20,000 boxes), should_stop and user count; NULL: the defaults
+ * @param options    domain, budget (0: 20,000 boxes; a shape from a callback: 100,000), should_stop and user
+ *                   count; NULL: the defaults
  * @param out        the set; release it with fpt_foot_set_free. Empty when nothing is within the tolerance
- * @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided intervals
+ * @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided intervals; of a curve from a
+ *         callback without the bounds that it takes, always, with the whole domain undecided
  * @since 0.1
  */
 FPT_MUST_USE
@@ -1072,9 +1205,11 @@ fpt_status fpt_curve_preimage(const struct fpt_curve *curve,
  * @param point      3 finite numbers
  * @param tolerance  length, finite, >= 0; 0: 1e-7 x the diagonal of the surface's box. Never less than the rounding
  *                   of surface and point
- * @param options    domain, budget (0: 20,000 boxes), should_stop and user count; NULL: the defaults
+ * @param options    domain, budget (0: 20,000 boxes; a shape from a callback: 100,000), should_stop and user
+ *                   count; NULL: the defaults
  * @param out        the set; release it with fpt_foot_set_free. Empty when nothing is within the tolerance
- * @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided boxes
+ * @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided boxes; of a surface from a
+ *         callback without the bounds that it takes, always, with the whole domain undecided
  * @since 0.1
  */
 FPT_MUST_USE
@@ -1093,7 +1228,8 @@ fpt_status fpt_surface_preimage(const struct fpt_surface *surface,
  * @param point    3 finite numbers
  * @param options  NULL: the defaults
  * @param out      the set; release it with fpt_foot_set_free
- * @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided intervals
+ * @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided intervals; of a curve from a
+ *         callback without the bounds that it takes, always, with the whole domain undecided
  * @since 0.1
  */
 FPT_MUST_USE
@@ -1114,7 +1250,8 @@ fpt_status fpt_curve_extrema(const struct fpt_curve *curve,
  * @param point    3 finite numbers
  * @param options  NULL: the defaults
  * @param out      the set; release it with fpt_foot_set_free
- * @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided boxes
+ * @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided boxes; of a surface from a
+ *         callback without the bounds that it takes, always, with the whole domain undecided
  * @since 0.1
  */
 FPT_MUST_USE

@@ -8,7 +8,7 @@
  *   - array arguments are vectors of doubles whose lengths are checked before the call;
  *   - FPT_BUDGET_EXHAUSTED is not thrown: the set that comes says so with is_complete().
  * Moved-from objects may be assigned to and destroyed; anything else throws FPT_NULL_ARGUMENT.
- * Callbacks in options must not throw.
+ * Callbacks in options must not throw; the functions of from_function may, that is a failure there.
  *
  *     footpoint::surface blade(3, 3, knots_u, knots_v, poles, weights);
  *     for (const fpt_foot_point &foot : blade.closest(points)) use(foot.u, foot.v, foot.distance);
@@ -22,11 +22,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace footpoint {
@@ -158,6 +160,11 @@ private:
     std::unique_ptr<fpt_foot_set, deleter> handle_;
 };
 
+/** fpt_curve_callback.evaluate without its user: u, derivatives, out. */
+using curve_function = std::function<int(double, std::uint32_t, double *)>;
+/** fpt_surface_callback.evaluate without its user: u, v, derivatives, out. */
+using surface_function = std::function<int(double, double, std::uint32_t, double *)>;
+
 /** Unit normals with sides, or unit tangents, one per foot. */
 struct directions {
     /** x,y,z each; NaN where there is none. */
@@ -179,6 +186,21 @@ struct path {
 
 /** What the classes below share; not for callers. */
 namespace detail {
+
+/** Calls the function behind `user`; what it throws is a failure. */
+template <class Function, class... Arguments>
+std::int32_t called(void *user, Arguments... arguments) noexcept {
+    try {
+        return (*static_cast<Function *>(user))(arguments...);
+    } catch (...) {
+        return -1;
+    }
+}
+
+template <class Function>
+void released(void *user) noexcept {
+    delete static_cast<Function *>(user);
+}
 
 inline void require(bool holds, const char *text) {
     if (!holds) throw error(FPT_INVALID_ARGUMENT, text);
@@ -288,6 +310,25 @@ public:
 
     /** Takes a handle over. */
     explicit curve(fpt_curve *handle) noexcept : handle_(handle) {}
+
+    /** A curve given by a function, as fpt_curve_from_callback; bounds of 0: unknown. The function is called on
+     *  any thread, on several at a time. */
+    static curve from_function(curve_function function, const std::array<double, 2> &domain,
+                               double speed_bound = 0, double second_bound = 0) {
+        auto kept = std::make_unique<curve_function>(std::move(function));
+        fpt_curve_callback callback{};
+        callback.struct_size = sizeof callback;
+        if (*kept) callback.evaluate = detail::called<curve_function, double, std::uint32_t, double *>;
+        callback.user = kept.get();
+        callback.release = detail::released<curve_function>;
+        for (std::size_t i = 0; i < 2; i++) callback.domain[i] = domain[i];
+        callback.speed_bound = speed_bound;
+        callback.second_bound = second_bound;
+        fpt_curve *out = nullptr;
+        check(fpt_curve_from_callback(&callback, &out));
+        kept.release();
+        return curve(out);
+    }
 
     /** The handle, still owned here. */
     const fpt_curve *get() const noexcept { return handle_.get(); }
@@ -453,6 +494,26 @@ public:
 
     /** Takes a handle over. */
     explicit surface(fpt_surface *handle) noexcept : handle_(handle) {}
+
+    /** A surface given by a function, as fpt_surface_from_callback; bounds that are all 0: unknown. The function
+     *  is called on any thread, on several at a time. */
+    static surface from_function(surface_function function, const std::array<double, 4> &domain,
+                                 const std::array<double, 2> &speed_bounds = {},
+                                 const std::array<double, 3> &second_bounds = {}) {
+        auto kept = std::make_unique<surface_function>(std::move(function));
+        fpt_surface_callback callback{};
+        callback.struct_size = sizeof callback;
+        if (*kept) callback.evaluate = detail::called<surface_function, double, double, std::uint32_t, double *>;
+        callback.user = kept.get();
+        callback.release = detail::released<surface_function>;
+        for (std::size_t i = 0; i < 4; i++) callback.domain[i] = domain[i];
+        for (std::size_t i = 0; i < 2; i++) callback.speed_bounds[i] = speed_bounds[i];
+        for (std::size_t i = 0; i < 3; i++) callback.second_bounds[i] = second_bounds[i];
+        fpt_surface *out = nullptr;
+        check(fpt_surface_from_callback(&callback, &out));
+        kept.release();
+        return surface(out);
+    }
 
     /** The handle, still owned here. */
     const fpt_surface *get() const noexcept { return handle_.get(); }

@@ -28,7 +28,7 @@ mod surface;
 
 use crate::bounds::{Vector, norm, sub};
 use crate::closest::FootPoint;
-use crate::set::{FootSet, Kind, Member, Nature};
+use crate::set::{FootSet, Kind, Member, Nature, touch};
 
 /// What is asked for. The default is every stationary point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -69,7 +69,7 @@ impl ExtremaOptions {
     }
 
     /// Puts the nearest first, and leaves what was asked for.
-    fn finish(&self, mut members: Vec<Member>, undecided: Vec<[f64; 4]>) -> FootSet {
+    pub(crate) fn finish(&self, mut members: Vec<Member>, undecided: Vec<[f64; 4]>) -> FootSet {
         let radius = self.radius();
         members.retain(|member| member.foot.distance.is_nan() || member.foot.distance <= radius);
         if self.minima_only {
@@ -124,6 +124,22 @@ const NEAR: f64 = 1e-8;
 impl Taken {
     fn new(member: &Member, candidate: Candidate) -> Self {
         Self { candidate, point: member.foot.point, distance: member.foot.distance }
+    }
+
+    /// Whether a flat area is a part of this one: they touch, after one of the `turns`, at one distance.
+    fn touches(
+        &self,
+        other: &Candidate,
+        foot: &FootPoint,
+        accuracy: f64,
+        turns: &[[f64; 2]],
+    ) -> bool {
+        let moved = |t: &[f64; 2]| {
+            let b = other.area;
+            [b[0] + t[0], b[1] + t[0], b[2] + t[1], b[3] + t[1]]
+        };
+        let level = (foot.distance - self.distance).abs() <= 8.0 * accuracy;
+        level && turns.iter().any(|t| touch(&self.candidate.area, &moved(t)))
     }
 
     /// Whether another candidate, whose foot this is, means the same place. `holds(area, at)` tells whether a place lies

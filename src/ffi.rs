@@ -7,7 +7,9 @@
 //! ```text
 //!   C call -> guard -> arguments (pointers, counts, strides)   memory.rs, limits.rs
 //!                   -> options, records (struct layouts)       options.rs, records.rs
-//!                   -> Curve, Surface, closest, batch          curve.rs, surface.rs, query.rs, sets.rs, lines.rs
+//!                   -> spline or function behind a handle      form.rs
+//!                   -> Curve, Surface, closest, batch          curve.rs, surface.rs, callback.rs,
+//!                                                              query.rs, sets.rs, lines.rs
 //!                   -> normal, unwrap                          normals.rs, path.rs
 //!          <- fpt_status, text of a failure for fpt_last_error
 //! ```
@@ -23,8 +25,10 @@ mod memory;
 mod limits;
 mod options;
 mod records;
+mod form;
 mod curve;
 mod surface;
+mod callback;
 mod query;
 mod sets;
 mod lines;

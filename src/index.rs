@@ -22,6 +22,6 @@ mod shape;
 
 pub use piece::{Frame, MAX_TENSOR_BYTES, Span, position_error, position_steps, product_steps};
 pub use segments::{CurveIndex, Segment};
-pub use shape::{IndexedCurve, IndexedSurface};
+pub use shape::{IndexedCurve, IndexedSurface, Poll};
 
 pub use patches::{Patch, SurfaceIndex, side};

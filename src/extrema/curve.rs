@@ -25,6 +25,9 @@ const ON_END: f64 = 1e-13;
 /// Flat intervals whose distances differ by more than this many accuracies are a chain, not a continuum.
 const CHAIN: f64 = 8.0;
 
+/// Places at which a flat interval is looked at for that.
+const CHAIN_SAMPLES: usize = 16;
+
 /// How far around a flat member the distance is compared with its own, as a share of the range.
 const AROUND: f64 = 0.02;
 
@@ -164,8 +167,9 @@ impl<'a> Search<'a> {
         }
         let accuracy = self.accuracy * self.index.frame.scale;
         let cube = view.least_weight().powi(3);
-        let is_flat = |low: f64, high: f64, size: f64| {
-            let variation = 2.0 * size * (high - low) / cube;
+        let is_flat = |low: f64, high: f64, size: f64, is_noise: bool| {
+            let width = if is_noise { high - low } else { 1.0 };
+            let variation = 2.0 * size * width / cube;
             let middle = line.local(0.5 * (low + high));
             variation <= flat_limit(line.reach, accuracy)
                 && variation <= flat_limit(norm(line.jet(middle).d), accuracy)
@@ -234,7 +238,9 @@ impl<'a> Search<'a> {
             let member = self.flat_member(area, u, is_chain);
             let candidate = Candidate { at, area, source: Source::Flat };
             // A small interval on a seam is seen from both ends.
-            if member.kind != Kind::Point || !self.is_taken(&taken, &candidate, &member.foot) {
+            let known =
+                |t: &Taken| t.touches(&candidate, &member.foot, self.accuracy, &self.turns());
+            if !taken.iter().any(known) {
                 taken.push(Taken::new(&member, candidate));
                 members.push(member);
             }
@@ -254,11 +260,17 @@ impl<'a> Search<'a> {
         members
     }
 
+    /// Steps in the parameters after which the curve is the same.
+    fn turns(&self) -> [[f64; 2]; 3] {
+        let turn = if self.is_turning() { self.range[1] - self.range[0] } else { 0.0 };
+        [[-turn, 0.0], [0.0; 2], [turn, 0.0]]
+    }
+
     fn is_taken(&self, taken: &[Taken], candidate: &Candidate, foot: &FootPoint) -> bool {
         let sizes = (self.index.frame.diagonal, self.accuracy);
-        let turn = if self.is_turning() { self.range[1] - self.range[0] } else { 0.0 };
+        let turns = self.turns();
         let holds = |area: &[f64; 4], at: [f64; 2]| {
-            [-turn, 0.0, turn].iter().any(|turn| (area[0]..=area[1]).contains(&(at[0] + turn)))
+            turns.iter().any(|turn| (area[0]..=area[1]).contains(&(at[0] + turn[0])))
         };
         taken.iter().any(|known| known.is_same(candidate, foot, sizes, holds))
     }
@@ -315,11 +327,14 @@ impl<'a> Search<'a> {
             c.source == Source::Flat && c.area[0] <= area[1] && area[0] <= c.area[1]
         };
         let (mut least, mut most, mut u) = (f64::INFINITY, 0.0_f64, area[0]);
-        for candidate in self.candidates.iter().filter(inside) {
-            let distance = self.distance(candidate.at[0]);
+        // Flat intervals that touch have become one in the zeros already: places along it tell a chain too.
+        let share = |k: usize| area[0] + (area[1] - area[0]) * k as f64 / CHAIN_SAMPLES as f64;
+        let along = (1..CHAIN_SAMPLES).map(share);
+        for x in self.candidates.iter().filter(inside).map(|c| c.at[0]).chain(along) {
+            let distance = self.distance(x);
             most = most.max(distance);
             if distance < least {
-                (least, u) = (distance, candidate.at[0]);
+                (least, u) = (distance, x);
             }
         }
         let is_chain = most - least > CHAIN * self.accuracy;

@@ -104,6 +104,8 @@ struct Sheet<'a> {
     least_weight: f64,
     /// Greatest distance of a point of the patch.
     reach: f64,
+    /// Greatest distance of its points from its own origin.
+    radius: f64,
 }
 
 impl Sheet<'_> {
@@ -157,9 +159,12 @@ impl Sheet<'_> {
     fn settled(&self, at: [f64; 2], step: impl Fn(&Jet2) -> [f64; 2]) -> Option<[f64; 2]> {
         let mut at = at;
         for _ in 0..POLISH_STEPS {
-            let step = step(&self.jet(at));
+            let jet = self.jet(at);
+            let step = step(&jet);
             let size = step[0].abs().max(step[1].abs());
-            if size.is_nan() || size > LONGEST_POLISH {
+            // A parameter that hardly moves the point (near a collapsed edge) may move far.
+            let moved = step[0].abs() * norm(jet.s) + step[1].abs() * norm(jet.t);
+            if moved.is_nan() || moved > LONGEST_POLISH * self.radius {
                 return None;
             }
             at = [0, 1].map(|k| (at[k] + step[k]).clamp(self.range[2 * k], self.range[2 * k + 1]));
@@ -185,7 +190,7 @@ fn snapped(x: f64) -> f64 {
 /// which signs it has.
 fn sampled_extent(coefficients: &[f64], error: f64, budget: &mut u64) -> (f64, f64) {
     let mut zeros = Vec::new();
-    let is_flat = |low: f64, high: f64, size: f64| size <= 4.0 * error || high - low < 1e-9;
+    let is_flat = |low: f64, high: f64, size: f64, _| size <= 4.0 * error || high - low < 1e-9;
     zeros_of(coefficients, error, &is_flat, budget, &mut zeros);
     let mut places = vec![0.0];
     places.extend(zeros.windows(2).map(|pair| 0.5 * (pair[0].high[0] + pair[1].low[0])));
@@ -219,9 +224,12 @@ impl Meaning for Sheet<'_> {
         [greatest(side::T0) * greatest(side::T1), greatest(side::S0) * greatest(side::S1)]
     }
 
-    fn is_flat(&self, low: [f64; 2], high: [f64; 2], sizes: [f64; 2]) -> bool {
+    /// The gradient must be so small that the distance stays within the accuracy on any way through the whole patch: boxes that
+    /// are flat one by one could form a chain that is not. Where rounding hides the gradient the box itself must do.
+    fn is_flat(&self, low: [f64; 2], high: [f64; 2], sizes: [f64; 2], is_noise: bool) -> bool {
         let scale = self.scale(low, high);
-        let moved = [0, 1].map(|k| sizes[k] * scale[k] * (high[k] - low[k]));
+        let width = [0, 1].map(|k| if is_noise { high[k] - low[k] } else { 1.0 });
+        let moved = [0, 1].map(|k| sizes[k] * scale[k] * width[k]);
         let middle = self.local([0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])]);
         self.is_level(self.variation(moved[0] + moved[1]), middle)
     }
@@ -290,6 +298,7 @@ impl<'a> Search<'a> {
             accuracy: self.accuracy * self.index.frame.scale,
             least_weight: 1.0,
             reach: size + patch.radius,
+            radius: patch.radius,
         })
     }
 
@@ -370,9 +379,10 @@ impl<'a> Search<'a> {
             self.give_up(sheet, both(0.0), both(1.0));
             return;
         }
-        let is_flat = |low: f64, high: f64, size: f64| {
+        let is_flat = |low: f64, high: f64, size: f64, is_noise: bool| {
+            let width = if is_noise { high - low } else { 1.0 };
             let middle = sheet.local(both(0.5 * (low + high)));
-            sheet.is_level(sheet.variation(size * (high - low)), middle)
+            sheet.is_level(sheet.variation(size * width), middle)
         };
         let mut zeros = Vec::new();
         zeros_of(&slope.on_side(side), slope.error, &is_flat, &mut self.budget, &mut zeros);

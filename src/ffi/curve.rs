@@ -1,5 +1,6 @@
 //! Curves: handle, inputs back out, evaluation.
 
+use super::form::CurveForm;
 use super::limits::{check_degree, check_inside, check_inside_at, check_order};
 use super::memory::{
     array, optional_array, output, place, product, shared, write, write_array, write_weights,
@@ -12,10 +13,18 @@ use std::mem::size_of;
 use std::sync::Arc;
 
 /// A curve. Immutable: any number of threads may use one at a time. The search index is built on first
-/// use, by one thread while the others wait. Made by fpt_curve_new, owned by the caller, released by
-/// fpt_curve_free.
+/// use, by one thread while the others wait. Made by fpt_curve_new or fpt_curve_from_callback, owned by the
+/// caller, released by fpt_curve_free. A curve from a callback has no degree, knots, poles and weights:
+/// functions that need them return FPT_UNSUPPORTED.
 pub struct fpt_curve {
-    indexed: Arc<IndexedCurve>,
+    form: Arc<CurveForm>,
+}
+
+impl fpt_curve {
+    /// A handle for the caller.
+    pub(super) fn handle(form: CurveForm) -> *mut Self {
+        Box::into_raw(Box::new(Self { form: Arc::new(form) }))
+    }
 }
 
 /// The input of fpt_curve_new. Copied: nothing is borrowed after the call.
@@ -49,13 +58,22 @@ unsafe impl SelfSized for fpt_curve_data {
     }
 }
 
-/// The curve behind a handle.
+/// What is behind a handle: a spline or a function.
+///
+/// # Safety
+/// NULL or a live handle.
+pub(super) unsafe fn form<'a>(curve: *const fpt_curve) -> Result<&'a CurveForm, Failure> {
+    // SAFETY: the caller vouches for it.
+    Ok(&unsafe { shared("curve", curve) }?.form)
+}
+
+/// The spline curve behind a handle; a function is refused as unsupported.
 ///
 /// # Safety
 /// NULL or a live handle.
 pub(super) unsafe fn indexed<'a>(curve: *const fpt_curve) -> Result<&'a IndexedCurve, Failure> {
     // SAFETY: the caller vouches for it.
-    Ok(&unsafe { shared("curve", curve) }?.indexed)
+    unsafe { form(curve) }?.spline()
 }
 
 /// As [`indexed`], without the index.
@@ -100,8 +118,7 @@ pub unsafe extern "C" fn fpt_curve_new(
     // SAFETY: the header asks for a curve data struct and room for a handle.
     guard(|| unsafe {
         let out = place("out", out)?;
-        let indexed = Arc::new(IndexedCurve::new(read(data)?));
-        *out = Box::into_raw(Box::new(fpt_curve { indexed }));
+        *out = fpt_curve::handle(CurveForm::Spline(IndexedCurve::new(read(data)?)));
         Ok(())
     })
 }
@@ -129,7 +146,7 @@ pub unsafe extern "C" fn fpt_curve_free(curve: *mut fpt_curve) {
 pub unsafe extern "C" fn fpt_curve_domain(curve: *const fpt_curve, out_u: *mut f64) -> fpt_status {
     // SAFETY: the header asks for a live handle and room for 2 numbers.
     guard(|| unsafe {
-        let (start, end) = plain(curve)?.domain();
+        let (start, end) = form(curve)?.domain();
         write("out_u", [start, end], out_u.cast())
     })
 }
@@ -138,8 +155,10 @@ pub unsafe extern "C" fn fpt_curve_domain(curve: *const fpt_curve, out_u: *mut f
 /// domain's end the one on the left.
 ///
 /// @param u            in the domain, else FPT_INVALID_ARGUMENT
-/// @param derivatives  highest order d, at most 31; 0: the point only
-/// @param out          3*(d + 1) numbers: C, C', C'', ... with x,y,z each
+/// @param derivatives  highest order d, at most 31; 0: the point only. More than 2 of a curve from a
+///                     callback: FPT_UNSUPPORTED
+/// @param out          3*(d + 1) numbers: C, C', C'', ... with x,y,z each. Where a callback fails:
+///                     FPT_INVALID_ARGUMENT
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
@@ -151,13 +170,13 @@ pub unsafe extern "C" fn fpt_curve_evaluate(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle and room for 3*(d+1) numbers.
     guard(|| unsafe {
-        let curve = plain(curve)?;
+        let curve = form(curve)?;
         let order = check_order(derivatives)?;
+        curve.check_order(order)?;
         let out = output("out", out.cast::<[f64; 3]>(), order + 1)?;
         let (start, end) = curve.domain();
         check_inside("u", u, start, end)?;
-        curve.derivatives(u, order, out);
-        Ok(())
+        curve.derivatives(u, order, out)
     })
 }
 
@@ -167,7 +186,8 @@ pub unsafe extern "C" fn fpt_curve_evaluate(
 /// @param count        may be 0
 /// @param derivatives  highest order d, at most 31
 /// @param out          count*3*(d + 1) numbers, the values of parameter i at i*3*(d + 1); must not
-///                     overlap `parameters`
+///                     overlap `parameters`. Where a callback fails: FPT_INVALID_ARGUMENT, the values
+///                     before are written
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
@@ -180,8 +200,9 @@ pub unsafe extern "C" fn fpt_curve_evaluate_many(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle and arrays of these lengths that do not overlap.
     guard(|| unsafe {
-        let curve = plain(curve)?;
+        let curve = form(curve)?;
         let order = check_order(derivatives)?;
+        curve.check_order(order)?;
         let parameters = array("parameters", parameters, count)?;
         let out = output("out", out.cast::<[f64; 3]>(), product("out", count, order + 1)?)?;
         let (start, end) = curve.domain();
@@ -189,7 +210,7 @@ pub unsafe extern "C" fn fpt_curve_evaluate_many(
             check_inside_at("parameters", i, "u", u, start, end)?;
         }
         for (&u, values) in parameters.iter().zip(out.chunks_exact_mut(order + 1)) {
-            curve.derivatives(u, order, values);
+            curve.derivatives(u, order, values)?;
         }
         Ok(())
     })
@@ -278,7 +299,8 @@ pub unsafe extern "C" fn fpt_curve_weights(
 }
 
 /// The box of the poles that act on the domain, in which the curve lies. Its diagonal is what the default
-/// tolerance and accuracy are relative to.
+/// tolerance and accuracy are relative to. Of a curve from a callback: the box of samples, which it may
+/// leave between them.
 ///
 /// @param out_box  6 numbers: least x,y,z, then greatest x,y,z
 /// @since 0.1
@@ -286,13 +308,10 @@ pub unsafe extern "C" fn fpt_curve_weights(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fpt_curve_box(curve: *const fpt_curve, out_box: *mut f64) -> fpt_status {
     // SAFETY: the header asks for a live handle and room for 6 numbers.
-    guard(|| unsafe {
-        let (least, greatest) = plain(curve)?.bounding_box();
-        write("out_box", [least, greatest], out_box.cast())
-    })
+    guard(|| unsafe { write("out_box", form(curve)?.bounding_box(), out_box.cast()) })
 }
 
-/// Whether the curve has weights that differ: 1 or 0.
+/// Whether the curve has weights that differ: 1 or 0. 0 for a curve from a callback.
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
@@ -302,7 +321,7 @@ pub unsafe extern "C" fn fpt_curve_is_rational(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle and room for the value.
     guard(|| unsafe {
-        write("out_is_rational", i32::from(plain(curve)?.is_rational()), out_is_rational)
+        write("out_is_rational", i32::from(form(curve)?.is_rational()), out_is_rational)
     })
 }
 
@@ -315,7 +334,7 @@ pub unsafe extern "C" fn fpt_curve_is_closed(
     out_is_closed: *mut i32,
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle and room for the value.
-    guard(|| unsafe { write("out_is_closed", i32::from(plain(curve)?.is_closed()), out_is_closed) })
+    guard(|| unsafe { write("out_is_closed", i32::from(form(curve)?.is_closed()), out_is_closed) })
 }
 
 /// Builds the search index now instead of on the first query. May be called again and from any thread.
@@ -324,5 +343,5 @@ pub unsafe extern "C" fn fpt_curve_is_closed(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fpt_curve_prepare(curve: *const fpt_curve) -> fpt_status {
     // SAFETY: the header asks for a live handle.
-    guard(|| Ok(unsafe { indexed(curve) }?.prepare(&mut || false)?))
+    guard(|| Ok(unsafe { form(curve) }?.prepare(&mut || false)?))
 }

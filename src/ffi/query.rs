@@ -4,13 +4,14 @@
 //! the batch layer answer into the caller's records. Callbacks run on the calling thread only.
 
 use super::curve::{self, fpt_curve};
+use super::form::{CurveForm, SurfaceForm};
 use super::memory::Strided;
 use super::options::fpt_query_options;
 use super::records::{feet, fpt_foot_point};
 use super::surface::{self, fpt_surface};
 use super::{Failure, fpt_status, guard};
 use crate::batch;
-use crate::closest::{FootPoint, QueryOptions, Trace, Workspace};
+use crate::closest::{FootPoint, QueryOptions, Trace};
 use crate::error::Error;
 use crate::index::{IndexedCurve, IndexedSurface};
 use std::ffi::{c_int, c_void};
@@ -37,9 +38,8 @@ pub unsafe extern "C" fn fpt_curve_closest(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle and arrays of these lengths that do not overlap.
     guard(|| unsafe {
-        let curve = curve::indexed(curve)?;
-        Batch::read(curve, points, count, options, out)?
-            .run(|c, q, h, o, w: &mut Workspace, t| c.closest(q, h.map(|[u]| u), o, w, t))
+        let curve = curve::form(curve)?;
+        Batch::read(curve, points, count, options, out)?.run(CurveForm::closest)
     })
 }
 
@@ -62,9 +62,8 @@ pub unsafe extern "C" fn fpt_curve_invert(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle and arrays of these lengths that do not overlap.
     guard(|| unsafe {
-        let curve = curve::indexed(curve)?;
-        Batch::read(curve, points, count, options, out)?
-            .run(|c, q, h, o, w: &mut Workspace, t| c.invert(q, h.map(|[u]| u), o, w, t))
+        let curve = curve::form(curve)?;
+        Batch::read(curve, points, count, options, out)?.run(CurveForm::invert)
     })
 }
 
@@ -90,8 +89,8 @@ pub unsafe extern "C" fn fpt_surface_closest(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle and arrays of these lengths that do not overlap.
     guard(|| unsafe {
-        let surface = surface::indexed(surface)?;
-        Batch::read(surface, points, count, options, out)?.run(IndexedSurface::closest)
+        let surface = surface::form(surface)?;
+        Batch::read(surface, points, count, options, out)?.run(SurfaceForm::closest)
     })
 }
 
@@ -114,8 +113,8 @@ pub unsafe extern "C" fn fpt_surface_invert(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle and arrays of these lengths that do not overlap.
     guard(|| unsafe {
-        let surface = surface::indexed(surface)?;
-        Batch::read(surface, points, count, options, out)?.run(IndexedSurface::invert)
+        let surface = surface::form(surface)?;
+        Batch::read(surface, points, count, options, out)?.run(SurfaceForm::invert)
     })
 }
 
@@ -125,6 +124,36 @@ pub(super) trait Shape<const N: usize>: Sync {
     fn ends(&self) -> [[f64; 2]; N];
     fn check_restriction(&self, domain: [f64; 4]) -> Result<(), Error>;
     fn build(&self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error>;
+}
+
+impl Shape<1> for CurveForm {
+    fn ends(&self) -> [[f64; 2]; 1] {
+        let (start, end) = self.domain();
+        [[start, end]]
+    }
+
+    fn check_restriction(&self, domain: [f64; 4]) -> Result<(), Error> {
+        self.check_domain(domain)
+    }
+
+    fn build(&self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error> {
+        self.prepare(poll)
+    }
+}
+
+impl Shape<2> for SurfaceForm {
+    fn ends(&self) -> [[f64; 2]; 2] {
+        let [u0, u1, v0, v1] = self.domain();
+        [[u0, u1], [v0, v1]]
+    }
+
+    fn check_restriction(&self, domain: [f64; 4]) -> Result<(), Error> {
+        self.check_domain(domain)
+    }
+
+    fn build(&self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error> {
+        self.prepare(poll)
+    }
 }
 
 impl Shape<1> for IndexedCurve {

@@ -249,9 +249,11 @@ pub(super) fn hand_over(set: FootSet, out: &mut *mut fpt_foot_set) -> Result<(),
 /// @param point      3 finite numbers
 /// @param tolerance  length, finite, >= 0; 0: 1e-7 x the diagonal of the curve's box. Never less than the rounding
 ///                   of curve and point
-/// @param options    domain, budget (0: 20,000 boxes), should_stop and user count; NULL: the defaults
+/// @param options    domain, budget (0: 20,000 boxes; a shape from a callback: 100,000), should_stop and user
+///                   count; NULL: the defaults
 /// @param out        the set; release it with fpt_foot_set_free. Empty when nothing is within the tolerance
-/// @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided intervals
+/// @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided intervals; of a curve from a
+///         callback without the bounds that it takes, always, with the whole domain undecided
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
@@ -264,7 +266,7 @@ pub unsafe extern "C" fn fpt_curve_preimage(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle, three numbers, options and room for a handle.
     guard(|| unsafe {
-        let curve = curve::indexed(curve)?;
+        let curve = curve::form(curve)?;
         let query = self::point("point", point)?;
         check_length("tolerance", tolerance)?;
         let given = fpt_query_options::read(options)?;
@@ -286,9 +288,11 @@ pub unsafe extern "C" fn fpt_curve_preimage(
 /// @param point      3 finite numbers
 /// @param tolerance  length, finite, >= 0; 0: 1e-7 x the diagonal of the surface's box. Never less than the rounding
 ///                   of surface and point
-/// @param options    domain, budget (0: 20,000 boxes), should_stop and user count; NULL: the defaults
+/// @param options    domain, budget (0: 20,000 boxes; a shape from a callback: 100,000), should_stop and user
+///                   count; NULL: the defaults
 /// @param out        the set; release it with fpt_foot_set_free. Empty when nothing is within the tolerance
-/// @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided boxes
+/// @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided boxes; of a surface from a
+///         callback without the bounds that it takes, always, with the whole domain undecided
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
@@ -301,7 +305,7 @@ pub unsafe extern "C" fn fpt_surface_preimage(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle, three numbers, options and room for a handle.
     guard(|| unsafe {
-        let surface = surface::indexed(surface)?;
+        let surface = surface::form(surface)?;
         let query = self::point("point", point)?;
         check_length("tolerance", tolerance)?;
         let given = fpt_query_options::read(options)?;
@@ -322,7 +326,8 @@ pub unsafe extern "C" fn fpt_surface_preimage(
 /// @param point    3 finite numbers
 /// @param options  NULL: the defaults
 /// @param out      the set; release it with fpt_foot_set_free
-/// @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided intervals
+/// @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided intervals; of a curve from a
+///         callback without the bounds that it takes, always, with the whole domain undecided
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
@@ -334,7 +339,7 @@ pub unsafe extern "C" fn fpt_curve_extrema(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle, three numbers, options and room for a handle.
     guard(|| unsafe {
-        let curve = curve::indexed(curve)?;
+        let curve = curve::form(curve)?;
         let query = self::point("point", point)?;
         let given = fpt_extrema_options::read(options)?;
         let options = given.checked(2)?;
@@ -357,7 +362,8 @@ pub unsafe extern "C" fn fpt_curve_extrema(
 /// @param point    3 finite numbers
 /// @param options  NULL: the defaults
 /// @param out      the set; release it with fpt_foot_set_free
-/// @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided boxes
+/// @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided boxes; of a surface from a
+///         callback without the bounds that it takes, always, with the whole domain undecided
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
@@ -369,7 +375,7 @@ pub unsafe extern "C" fn fpt_surface_extrema(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle, three numbers, options and room for a handle.
     guard(|| unsafe {
-        let surface = surface::indexed(surface)?;
+        let surface = surface::form(surface)?;
         let query = self::point("point", point)?;
         let given = fpt_extrema_options::read(options)?;
         let options = given.checked(4)?;

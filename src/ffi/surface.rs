@@ -1,5 +1,6 @@
 //! Surfaces: handle, inputs back out, evaluation.
 
+use super::form::SurfaceForm;
 use super::limits::{check_degree, check_inside, check_inside_at, check_order};
 use super::memory::{
     array, optional_array, output, place, product, shared, write, write_array, write_weights,
@@ -12,10 +13,18 @@ use std::mem::size_of;
 use std::sync::Arc;
 
 /// A surface. Immutable: any number of threads may use one at a time. The search index is built on first
-/// use, by one thread while the others wait. Made by fpt_surface_new, owned by the caller, released by
-/// fpt_surface_free.
+/// use, by one thread while the others wait. Made by fpt_surface_new or fpt_surface_from_callback, owned by
+/// the caller, released by fpt_surface_free. A surface from a callback has no degrees, knots, poles and
+/// weights: functions that need them return FPT_UNSUPPORTED.
 pub struct fpt_surface {
-    indexed: Arc<IndexedSurface>,
+    form: Arc<SurfaceForm>,
+}
+
+impl fpt_surface {
+    /// A handle for the caller.
+    pub(super) fn handle(form: SurfaceForm) -> *mut Self {
+        Box::into_raw(Box::new(Self { form: Arc::new(form) }))
+    }
 }
 
 /// The input of fpt_surface_new. Copied: nothing is borrowed after the call.
@@ -64,7 +73,16 @@ unsafe impl SelfSized for fpt_surface_data {
     }
 }
 
-/// The surface behind a handle.
+/// What is behind a handle: a spline or a function.
+///
+/// # Safety
+/// NULL or a live handle.
+pub(super) unsafe fn form<'a>(surface: *const fpt_surface) -> Result<&'a SurfaceForm, Failure> {
+    // SAFETY: the caller vouches for it.
+    Ok(&unsafe { shared("surface", surface) }?.form)
+}
+
+/// The spline surface behind a handle; a function is refused as unsupported.
 ///
 /// # Safety
 /// NULL or a live handle.
@@ -72,7 +90,7 @@ pub(super) unsafe fn indexed<'a>(
     surface: *const fpt_surface,
 ) -> Result<&'a IndexedSurface, Failure> {
     // SAFETY: the caller vouches for it.
-    Ok(&unsafe { shared("surface", surface) }?.indexed)
+    unsafe { form(surface) }?.spline()
 }
 
 /// As [`indexed`], without the index.
@@ -123,8 +141,7 @@ pub unsafe extern "C" fn fpt_surface_new(
     // SAFETY: the header asks for a surface data struct and room for a handle.
     guard(|| unsafe {
         let out = place("out", out)?;
-        let indexed = Arc::new(IndexedSurface::new(read(data)?));
-        *out = Box::into_raw(Box::new(fpt_surface { indexed }));
+        *out = fpt_surface::handle(SurfaceForm::Spline(IndexedSurface::new(read(data)?)));
         Ok(())
     })
 }
@@ -154,7 +171,7 @@ pub unsafe extern "C" fn fpt_surface_domain(
     out_uv: *mut f64,
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle and room for 4 numbers.
-    guard(|| unsafe { write("out_uv", plain(surface)?.domain(), out_uv.cast()) })
+    guard(|| unsafe { write("out_uv", form(surface)?.domain(), out_uv.cast()) })
 }
 
 /// The surface and its partial derivatives at one pair of parameters. At a knot the piece on the right
@@ -162,9 +179,10 @@ pub unsafe extern "C" fn fpt_surface_domain(
 ///
 /// @param u            in the domain, else FPT_INVALID_ARGUMENT
 /// @param v            in the domain, else FPT_INVALID_ARGUMENT
-/// @param derivatives  highest total order d, at most 31; 0: the point only
+/// @param derivatives  highest total order d, at most 31; 0: the point only. More than 2 of a surface
+///                     from a callback: FPT_UNSUPPORTED
 /// @param out          3*(d + 1)*(d + 2)/2 numbers, order by order: S; Su,Sv; Suu,Suv,Svv; ... with
-///                     x,y,z each
+///                     x,y,z each. Where a callback fails: FPT_INVALID_ARGUMENT
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
@@ -177,14 +195,14 @@ pub unsafe extern "C" fn fpt_surface_evaluate(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle and room for 3*(d+1)*(d+2)/2 numbers.
     guard(|| unsafe {
-        let surface = plain(surface)?;
+        let surface = form(surface)?;
         let order = check_order(derivatives)?;
+        surface.check_order(order)?;
         let out = output("out", out.cast::<[f64; 3]>(), partial_count(order))?;
         let [u0, u1, v0, v1] = surface.domain();
         check_inside("u", u, u0, u1)?;
         check_inside("v", v, v0, v1)?;
-        surface.partials(u, v, order, out);
-        Ok(())
+        surface.partials([u, v], order, out)
     })
 }
 
@@ -196,7 +214,8 @@ pub unsafe extern "C" fn fpt_surface_evaluate(
 /// @param count        pairs; may be 0
 /// @param derivatives  highest total order d, at most 31
 /// @param out          count*n numbers with n = 3*(d + 1)*(d + 2)/2, the values of pair i at i*n; must
-///                     not overlap `parameters`
+///                     not overlap `parameters`. Where a callback fails: FPT_INVALID_ARGUMENT, the
+///                     values before are written
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
@@ -209,8 +228,9 @@ pub unsafe extern "C" fn fpt_surface_evaluate_many(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle and arrays of these lengths that do not overlap.
     guard(|| unsafe {
-        let surface = plain(surface)?;
+        let surface = form(surface)?;
         let order = check_order(derivatives)?;
+        surface.check_order(order)?;
         let parameters = array("parameters", parameters.cast::<[f64; 2]>(), count)?;
         let each = partial_count(order);
         let out = output("out", out.cast::<[f64; 3]>(), product("out", count, each)?)?;
@@ -219,8 +239,8 @@ pub unsafe extern "C" fn fpt_surface_evaluate_many(
             check_inside_at("parameters", i, "u", u, u0, u1)?;
             check_inside_at("parameters", i, "v", v, v0, v1)?;
         }
-        for (&[u, v], values) in parameters.iter().zip(out.chunks_exact_mut(each)) {
-            surface.partials(u, v, order, values);
+        for (&pair, values) in parameters.iter().zip(out.chunks_exact_mut(each)) {
+            surface.partials(pair, order, values)?;
         }
         Ok(())
     })
@@ -362,7 +382,8 @@ pub unsafe extern "C" fn fpt_surface_weights(
 }
 
 /// The box of the poles that act on the domain, in which the surface lies. Its diagonal is what the default
-/// tolerance and accuracy are relative to.
+/// tolerance and accuracy are relative to. Of a surface from a callback: the box of samples, which it may
+/// leave between them.
 ///
 /// @param out_box  6 numbers: least x,y,z, then greatest x,y,z
 /// @since 0.1
@@ -373,13 +394,10 @@ pub unsafe extern "C" fn fpt_surface_box(
     out_box: *mut f64,
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle and room for 6 numbers.
-    guard(|| unsafe {
-        let (least, greatest) = plain(surface)?.bounding_box();
-        write("out_box", [least, greatest], out_box.cast())
-    })
+    guard(|| unsafe { write("out_box", form(surface)?.bounding_box(), out_box.cast()) })
 }
 
-/// Whether the surface has weights that differ: 1 or 0.
+/// Whether the surface has weights that differ: 1 or 0. 0 for a surface from a callback.
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
@@ -389,7 +407,7 @@ pub unsafe extern "C" fn fpt_surface_is_rational(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle and room for the value.
     guard(|| unsafe {
-        write("out_is_rational", i32::from(plain(surface)?.is_rational()), out_is_rational)
+        write("out_is_rational", i32::from(form(surface)?.is_rational()), out_is_rational)
     })
 }
 
@@ -404,7 +422,7 @@ pub unsafe extern "C" fn fpt_surface_is_closed_u(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle and room for the value.
     guard(|| unsafe {
-        write("out_is_closed_u", i32::from(plain(surface)?.is_closed_u()), out_is_closed_u)
+        write("out_is_closed_u", i32::from(form(surface)?.is_closed()[0]), out_is_closed_u)
     })
 }
 
@@ -419,7 +437,7 @@ pub unsafe extern "C" fn fpt_surface_is_closed_v(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle and room for the value.
     guard(|| unsafe {
-        write("out_is_closed_v", i32::from(plain(surface)?.is_closed_v()), out_is_closed_v)
+        write("out_is_closed_v", i32::from(form(surface)?.is_closed()[1]), out_is_closed_v)
     })
 }
 
@@ -436,7 +454,7 @@ pub unsafe extern "C" fn fpt_surface_collapsed_edges(
 ) -> fpt_status {
     // SAFETY: the header asks for a live handle and room for 4 numbers.
     guard(|| unsafe {
-        let collapsed = plain(surface)?.collapsed_edges().map(i32::from);
+        let collapsed = form(surface)?.collapsed_edges().map(i32::from);
         write("out_collapsed", collapsed, out_collapsed.cast())
     })
 }
@@ -446,5 +464,5 @@ pub unsafe extern "C" fn fpt_surface_collapsed_edges(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fpt_surface_prepare(surface: *const fpt_surface) -> fpt_status {
     // SAFETY: the header asks for a live handle.
-    guard(|| Ok(unsafe { indexed(surface) }?.prepare(&mut || false)?))
+    guard(|| Ok(unsafe { form(surface) }?.prepare(&mut || false)?))
 }

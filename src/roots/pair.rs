@@ -12,6 +12,9 @@ const MOST_DEVIATION: f64 = 0.8;
 /// How far outside its box, as a share of it, Newton may end and still mean a zero on the border seen from both sides.
 const OVERSHOOT: f64 = 1e-9;
 
+/// Values below this many allowances are rounding: halving does not tell more about them.
+const NOISE: f64 = 4.0;
+
 /// Two polynomials of the same bidegree on the unit box.
 pub struct Pair<'a> {
     /// Coefficients of the first.
@@ -29,8 +32,8 @@ pub trait Meaning {
     /// Factors that make greatest values of the two polynomials on a box comparable: the greater the product of value,
     /// factor and width, the more the box needs halving in that direction.
     fn scale(&self, low: [f64; 2], high: [f64; 2]) -> [f64; 2];
-    /// Whether values of at most `sizes` on the box are as good as zero.
-    fn is_flat(&self, low: [f64; 2], high: [f64; 2], sizes: [f64; 2]) -> bool;
+    /// Whether values of at most `sizes` on the box are as good as zero; `is_noise`: rounding is as large as they are.
+    fn is_flat(&self, low: [f64; 2], high: [f64; 2], sizes: [f64; 2], is_noise: bool) -> bool;
 }
 
 #[derive(Clone, Copy)]
@@ -98,7 +101,8 @@ impl Walk<'_, '_> {
         if self.isolate(area, at) {
             return Verdict::Closed;
         }
-        if self.meaning.is_flat(area.low, area.high, sizes) {
+        let is_noise = (0..2).all(|k| sizes[k] <= NOISE * area.error[k]);
+        if self.meaning.is_flat(area.low, area.high, sizes, is_noise) {
             self.out.push(Zero::area(Found::Flat, area.low, area.high));
             return Verdict::Closed;
         }
@@ -279,7 +283,7 @@ mod tests {
             [1.0; 2]
         }
 
-        fn is_flat(&self, low: [f64; 2], high: [f64; 2], sizes: [f64; 2]) -> bool {
+        fn is_flat(&self, low: [f64; 2], high: [f64; 2], sizes: [f64; 2], _: bool) -> bool {
             sizes[0] * (high[0] - low[0]) + sizes[1] * (high[1] - low[1]) < 1e-10
         }
     }

@@ -4,6 +4,9 @@ use super::{Found, LEAST_WIDTH, Zero, push_root, spend};
 use crate::bezier::{Bidegree, halve_t};
 use crate::bounds::{HALF_ULP, extent};
 
+/// Values below this many allowances are rounding: halving does not tell more about them.
+const NOISE: f64 = 4.0;
+
 struct Interval {
     low: f64,
     high: f64,
@@ -12,12 +15,12 @@ struct Interval {
 
 /// Appends all zeros on [0, 1] of the polynomial with these coefficients to `out`.
 ///
-/// `error` bounds how far the coefficients may be off. `is_flat(low, high, size)` is asked whether values of at most `size`
-/// on an interval are none; then the interval is closed as a whole. Flat intervals that touch come out as one.
+/// `error` bounds how far the coefficients may be off. `is_flat(low, high, size, is_noise)` is asked whether values of at
+/// most `size` on an interval are none (`is_noise`: rounding is as large as they are); then the interval is closed as a whole. Flat intervals that touch come out as one.
 pub fn zeros_of(
     coefficients: &[f64],
     error: f64,
-    is_flat: &dyn Fn(f64, f64, f64) -> bool,
+    is_flat: &dyn Fn(f64, f64, f64, bool) -> bool,
     budget: &mut u64,
     out: &mut Vec<Zero<1>>,
 ) {
@@ -34,11 +37,12 @@ pub fn zeros_of(
             continue;
         }
         let (low, high, width) = (interval.low, interval.high, interval.high - interval.low);
+        let size = least.abs().max(most.abs());
         if is_monotone(g, 2.0 * interval.error) {
             let (x, slope) = root(g);
             let radius = 4.0 * (interval.error / slope + 4.0 * HALF_ULP) * width + 4.0 * HALF_ULP;
             push_root(out, first, Zero::root([low + x * width], radius));
-        } else if is_flat(low, high, least.abs().max(most.abs())) {
+        } else if is_flat(low, high, size, size <= NOISE * interval.error) {
             push_flat(out, first, low, high);
         } else if width < LEAST_WIDTH || !spend(budget) {
             out.push(Zero::area(Found::Undecided, [low], [high]));
@@ -133,7 +137,7 @@ mod tests {
 
     fn found(g: &[f64]) -> Vec<Zero<1>> {
         let mut out = Vec::new();
-        zeros_of(g, 1e-15, &|a, b, size| size * (b - a) < 1e-12, &mut 10_000, &mut out);
+        zeros_of(g, 1e-15, &|a, b, size, _| size * (b - a) < 1e-12, &mut 10_000, &mut out);
         out
     }
 

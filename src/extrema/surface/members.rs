@@ -30,7 +30,9 @@ impl Search<'_> {
             let member = self.flat_member(area, at, is_chain);
             let candidate = Candidate { at, area, source: Source::Flat };
             // A small area on a seam is seen from both ends.
-            if member.kind != Kind::Point || !self.is_taken(&taken, &candidate, &member.foot) {
+            let known =
+                |t: &Taken| t.touches(&candidate, &member.foot, self.accuracy, &self.turns());
+            if !taken.iter().any(known) {
                 taken.push(Taken::new(&member, candidate));
                 members.push(member);
             }
@@ -58,14 +60,19 @@ impl Search<'_> {
 
     /// Whether a place lies in an area, across the seam too.
     fn holds(&self, area: &[f64; 4], at: [f64; 2]) -> bool {
-        let domain = self.shape.surface().domain();
-        let r = self.range;
-        (0..2).all(|k| {
-            let (low, high) = (area[2 * k], area[2 * k + 1]);
+        let inside = |k: usize, x: f64| (area[2 * k]..=area[2 * k + 1]).contains(&x);
+        self.turns().iter().any(|turn| (0..2).all(|k| inside(k, at[k] + turn[k])))
+    }
+
+    /// Steps in the parameters after which the surface is the same.
+    fn turns(&self) -> [[f64; 2]; 9] {
+        let (domain, r) = (self.shape.surface().domain(), self.range);
+        let period = |k: usize| {
             let whole = r[2 * k..2 * k + 2] == domain[2 * k..2 * k + 2];
-            let period = if self.index.closed[k] && whole { r[2 * k + 1] - r[2 * k] } else { 0.0 };
-            [-period, 0.0, period].iter().any(|turn| (low..=high).contains(&(at[k] + turn)))
-        })
+            if self.index.closed[k] && whole { r[2 * k + 1] - r[2 * k] } else { 0.0 }
+        };
+        std::array::from_fn(|i| [(i / 3) as f64 - 1.0, (i % 3) as f64 - 1.0])
+            .map(|[a, b]| [a * period(0), b * period(1)])
     }
 
     fn point_member(&self, candidate: &Candidate, foot: FootPoint) -> Option<Member> {
@@ -120,7 +127,11 @@ impl Search<'_> {
         if is_chain {
             foot.flags |= flag::NOT_PROVEN;
         }
-        let interval = |k: usize, x: f64| [area[2 * k].min(x), area[2 * k + 1].max(x)];
+        // A foot that went to the other end of a seam takes its interval along.
+        let interval = |k: usize, x: f64| {
+            let (low, high) = (area[2 * k], area[2 * k + 1]);
+            if at[k] == x { [low.min(x), high.max(x)] } else { [x; 2] }
+        };
         let (u, v) = (interval(0, foot.u), interval(1, foot.v));
         // Where a parameter does not move the point, the signs are rounding.
         let across = match flat {
