@@ -6,23 +6,27 @@ JOBS   ?= $(shell nproc 2>/dev/null || echo 2)
 SEED    ?= 1
 QUERIES ?= 10000000
 THREADS ?= $(JOBS)
+CASES   ?= ../shared/cases
 
-.PHONY: help build test test-rust test-c stress demo install clean
+.PHONY: help build test test-rust test-c stress demo compare-occt install clean
 
 help:
 	@echo "make build             build the library, shared and static, into $(BUILD)/lib"
 	@echo "make test              run every test"
 	@echo "make stress            ask QUERIES=10000000 difficult queries, each checked; also SEED, THREADS"
 	@echo "make demo              run the demonstration (a minute); pictures go to demo-out/"
+	@echo "make compare-occt      compare the extrema with OpenCASCADE 7.6 on the cases in $(CASES) (minutes)"
 	@echo "make install PREFIX=p  install library, headers and pkg-config file (default $(PREFIX))"
 	@echo "make clean             remove what was built"
 	@echo "Tools that are missing (cmake; for the tests also g++ and valgrind) are installed with apt by root;"
 	@echo "everybody else is told the one line to run. Settings: CARGO=$(CARGO) BUILD=$(BUILD) JOBS=$(JOBS)"
 
-# $(call need,<tools>): each tool is also the name of its package.
+# $(call need,<tools>,<packages>): each tool is also the name of its package; packages that hold no tool are asked
+# for by name.
 define need
 @missing=""; \
 for tool in $(1); do command -v $$tool >/dev/null 2>&1 || missing="$$missing $$tool"; done; \
+for name in $(2); do dpkg -s $$name >/dev/null 2>&1 || missing="$$missing $$name"; done; \
 if [ -z "$$missing" ]; then exit 0; fi; \
 if [ "$$(id -u)" != 0 ] || ! command -v apt-get >/dev/null 2>&1; then \
   echo "missing:$$missing. Please run: sudo apt-get update && sudo apt-get install -y --no-install-recommends$$missing"; \
@@ -72,6 +76,14 @@ demo:
 	$(BUILD)/examples/paper_example
 	mkdir -p demo-out
 	$(BUILD)/examples/propeller demo-out
+
+OCCT_PACKAGES = libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev
+
+compare-occt: build
+	$(call need,cmake g++,$(OCCT_PACKAGES))
+	cmake -S compare/occt -B $(BUILD)/compare-occt -DFOOTPOINT_LIB="$(abspath $(BUILD))/lib"
+	cmake --build $(BUILD)/compare-occt -j $(JOBS)
+	$(BUILD)/compare-occt/compare_extrema "$(CASES)" --list $(BUILD)/compare-occt/list.txt
 
 install: build
 	cmake --install $(BUILD) --prefix "$(PREFIX)"

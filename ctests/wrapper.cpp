@@ -180,6 +180,40 @@ void a_stop_is_thrown_and_the_records_stay() {
     CHECK(std::isnan(foot.distance) && foot.lower_bound == 0 && (foot.flags & FPT_FOOT_NOT_PROVEN));
 }
 
+// A function may hold anything and throw; its copy goes with the handle.
+void functions_make_shapes() {
+    const auto held = std::make_shared<double>(2.0);
+    {
+        const curve round = curve::from_function(
+            [held](double u, std::uint32_t, double *out) {
+                if (u > 3 && u < 3.01) throw std::runtime_error("a hole");
+                out[0] = *held * std::cos(u);
+                out[1] = *held * std::sin(u);
+                out[2] = 0;
+                return 0;
+            },
+            {0, 6.283185307179586}, 0, 2);
+        CHECK(held.use_count() > 1 && round.is_closed());
+        CHECK_NEAR(round.closest({3, 0, 0})[0].distance, 1, 1e-12);
+        check_thrown([&] { round.evaluate(3.005); }, FPT_INVALID_ARGUMENT, "failed at");
+        check_thrown([&] { round.degree(); }, FPT_UNSUPPORTED, "given by a function");
+    }
+    CHECK(held.use_count() == 1);
+    const surface plane = surface::from_function(
+        [](double u, double v, std::uint32_t, double *out) {
+            out[0] = u;
+            out[1] = v;
+            out[2] = 0;
+            return 0;
+        },
+        {0, 1, 0, 1}, {}, {1e-9, 0, 0});
+    const fpt_foot_point foot = plane.closest({0.5, 2, 0})[0];
+    CHECK(foot.v == 1 && (foot.flags & FPT_FOOT_NOT_PROVEN) == 0);
+    check_thrown([] { curve::from_function(nullptr, {0, 1}); }, FPT_NULL_ARGUMENT, "evaluate");
+    const auto fails = [](double, std::uint32_t, double *) { return -1; };
+    check_thrown([&] { curve::from_function(fails, {0, 1}); }, FPT_INVALID_ARGUMENT, "finite");
+}
+
 void sets_are_those_of_the_c_api() {
     const surface cone(cone_surface());
     const curve round = circle();
@@ -234,40 +268,6 @@ void an_incomplete_set_is_a_set_and_other_failures_are_thrown() {
     fpt_foot_set_free(raw);
 }
 
-// A function may hold anything and throw; its copy goes with the handle.
-void functions_make_shapes() {
-    const auto held = std::make_shared<double>(2.0);
-    {
-        const curve round = curve::from_function(
-            [held](double u, std::uint32_t, double *out) {
-                if (u > 3 && u < 3.01) throw std::runtime_error("a hole");
-                out[0] = *held * std::cos(u);
-                out[1] = *held * std::sin(u);
-                out[2] = 0;
-                return 0;
-            },
-            {0, 6.283185307179586}, 0, 2);
-        CHECK(held.use_count() > 1 && round.is_closed());
-        CHECK_NEAR(round.closest({3, 0, 0})[0].distance, 1, 1e-12);
-        check_thrown([&] { round.evaluate(3.005); }, FPT_INVALID_ARGUMENT, "failed at");
-        check_thrown([&] { round.degree(); }, FPT_UNSUPPORTED, "given by a function");
-    }
-    CHECK(held.use_count() == 1);
-    const surface plane = surface::from_function(
-        [](double u, double v, std::uint32_t, double *out) {
-            out[0] = u;
-            out[1] = v;
-            out[2] = 0;
-            return 0;
-        },
-        {0, 1, 0, 1}, {}, {1e-9, 0, 0});
-    const fpt_foot_point foot = plane.closest({0.5, 2, 0})[0];
-    CHECK(foot.v == 1 && (foot.flags & FPT_FOOT_NOT_PROVEN) == 0);
-    check_thrown([] { curve::from_function(nullptr, {0, 1}); }, FPT_NULL_ARGUMENT, "evaluate");
-    const auto fails = [](double, std::uint32_t, double *) { return -1; };
-    check_thrown([&] { curve::from_function(fails, {0, 1}); }, FPT_INVALID_ARGUMENT, "finite");
-}
-
 void normals_and_paths_are_those_of_the_c_api() {
     const surface shape = paper();
     const curve round = circle();
@@ -306,9 +306,9 @@ int main() {
     RUN(handles_move_and_are_handed_over);
     RUN(failures_are_thrown);
     RUN(a_stop_is_thrown_and_the_records_stay);
+    RUN(functions_make_shapes);
     RUN(sets_are_those_of_the_c_api);
     RUN(an_incomplete_set_is_a_set_and_other_failures_are_thrown);
-    RUN(functions_make_shapes);
     RUN(normals_and_paths_are_those_of_the_c_api);
     RUN(versions_agree);
     return check_report("wrapper");

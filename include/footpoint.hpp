@@ -64,6 +64,11 @@ struct query_options : fpt_query_options {
     }
 };
 
+/** fpt_curve_callback.evaluate without its user: u, derivatives, out. */
+using curve_function = std::function<int(double, std::uint32_t, double *)>;
+/** fpt_surface_callback.evaluate without its user: u, v, derivatives, out. */
+using surface_function = std::function<int(double, double, std::uint32_t, double *)>;
+
 /** fpt_extrema_options that begin as the defaults. */
 struct extrema_options : fpt_extrema_options {
     extrema_options() noexcept : fpt_extrema_options() {
@@ -159,11 +164,6 @@ private:
 
     std::unique_ptr<fpt_foot_set, deleter> handle_;
 };
-
-/** fpt_curve_callback.evaluate without its user: u, derivatives, out. */
-using curve_function = std::function<int(double, std::uint32_t, double *)>;
-/** fpt_surface_callback.evaluate without its user: u, v, derivatives, out. */
-using surface_function = std::function<int(double, double, std::uint32_t, double *)>;
 
 /** Unit normals with sides, or unit tangents, one per foot. */
 struct directions {
