@@ -111,9 +111,36 @@ fn isolated(set: &FootSet) -> Option<Vec<&Member>> {
     right.then_some(list)
 }
 
+/// Whether two members have nearly one distance, or nearly one point: rounding then decides what they are.
+fn is_close_call(shape: &Shape, query: Vector, list: &[&Member]) -> bool {
+    let limit = 1e-8 * shape.diagonal() + 100.0 * shape.gap(query, 0.0);
+    let level = list.windows(2).any(|p| p[1].foot.distance - p[0].foot.distance < limit);
+    let pair = |a: &Member, b: &Member| norm(sub(a.foot.point, b.foot.point)) < limit;
+    level || (0..list.len()).any(|i| (0..i).any(|j| pair(list[i], list[j])))
+}
+
+/// Whether some span is so short that its parameters have few digits.
+fn has_tiny_spans(shape: &Shape) -> bool {
+    let tiny = |knots: &footpoint::knots::Knots| {
+        let (first, last) = knots.domain();
+        let lengths = knots.spans().map(|i| knots.values()[i + 1] - knots.values()[i]);
+        lengths.fold(f64::INFINITY, f64::min) < 1e-8 * (last - first)
+    };
+    match shape {
+        Shape::Curve(curve) => tiny(curve.curve().knots()),
+        Shape::Surface(surface) => {
+            tiny(surface.surface().knots_u()) || tiny(surface.surface().knots_v())
+        }
+    }
+}
+
 /// Compares numbers, natures and distances (times `scale`) of two sets.
 fn agree(shape: &Shape, query: Vector, a: &FootSet, b: &FootSet, scale: f64) -> Check {
     let (Some(first), Some(second)) = (isolated(a), isolated(b)) else { return Check::LeftOut };
+    let doubtful = |list: &[&Member]| is_close_call(shape, query, list);
+    if has_tiny_spans(shape) || doubtful(&first) || doubtful(&second) {
+        return Check::LeftOut;
+    }
     let natures = |list: &[&Member]| {
         let mut of: Vec<u32> = list.iter().map(|m| m.nature as u32).collect();
         of.sort_unstable();

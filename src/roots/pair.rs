@@ -112,7 +112,9 @@ impl Walk<'_, '_> {
             return Verdict::Closed;
         }
         let scale = self.meaning.scale(area.low, area.high);
-        let need = [0, 1].map(|k| sizes[k] * scale[k] * width[k]);
+        // What rounding hides does not get smaller by halving.
+        let seen = [0, 1].map(|k| (sizes[k] - NOISE * area.error[k]).max(0.0));
+        let need = [0, 1].map(|k| seen[k] * scale[k] * width[k]);
         let narrow = [0, 1].map(|k| width[k] < LEAST_WIDTH);
         let s_first = need[0] > need[1] || (need[0] == need[1] && width[0] >= width[1]);
         Verdict::Halve(if narrow[1] || (s_first && !narrow[0]) { 0 } else { 1 })
