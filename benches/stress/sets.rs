@@ -134,8 +134,12 @@ pub fn extrema(judge: &Judge, ask: &Ask, nearest: f64, scratch: &mut Scratch) ->
         let (distance, point) = (found.square.sqrt(), judge.pieces.point(&found.place, [0.0; 3]));
         let is_it = |m: &&Member| {
             let apart = square(sub(m.foot.point, point)).sqrt();
+            let differ = (m.foot.distance - distance).abs();
             let is_here = apart <= 1e-4 * asked.diagonal() || holds(area(m), at, asked.slack());
-            is_here && (m.foot.distance - distance).abs() <= limit
+            // Near a focal point the search ends anywhere along a stretch on which the distance does not change.
+            let accuracy = 1e-10 * asked.diagonal() + judge.rounding(ask);
+            let is_along = apart <= 1e-2 * asked.diagonal() && differ <= accuracy;
+            is_along || (is_here && differ <= limit)
         };
         !asked.set.members.iter().any(|m| is_it(&m)) && !asked.is_undecided(at)
     });
@@ -196,15 +200,18 @@ fn is_clear(judge: &Judge, found: &Found, query: Vector) -> bool {
         dot(jet.t, jet.t) + dot(jet.d, jet.tt),
     ];
     let clear = |h: f64, speed: f64| h > 1e-3 * speed * speed;
-    let still = |k: usize| g[k].abs() <= 1e-9 * speeds[k] * (diagonal + found.square.sqrt());
+    // Another Newton step must not lead away: a small gradient alone says little where the distance hardly bends.
+    let still = |step: f64| step.abs() <= 1e-6;
     let [s, t] = speeds;
     match free {
         [false, false] => true,
-        [true, false] => clear(h[0], s) && still(0),
-        [false, true] => clear(h[2], t) && still(1),
+        [true, false] => clear(h[0], s) && still(g[0] / h[0]),
+        [false, true] => clear(h[2], t) && still(g[1] / h[2]),
         _ => {
             let det = h[0] * h[2] - h[1] * h[1];
-            clear(h[0], s) && clear(h[2], t) && det > 1e-3 * h[0] * h[2] && still(0) && still(1)
+            let step = [(h[1] * g[1] - h[2] * g[0]) / det, (h[1] * g[0] - h[0] * g[1]) / det];
+            let bends = clear(h[0], s) && clear(h[2], t) && det > 1e-3 * h[0] * h[2];
+            bends && still(step[0]) && still(step[1])
         }
     }
 }

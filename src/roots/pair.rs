@@ -15,6 +15,9 @@ const OVERSHOOT: f64 = 1e-9;
 /// Values below this many allowances are rounding: halving does not tell more about them.
 const NOISE: f64 = 4.0;
 
+/// Boxes after which a pair counts as difficult: values are then taken as good as zero as easily as if rounding hid them.
+const PATIENCE: u32 = 400;
+
 /// Two polynomials of the same bidegree on the unit box.
 pub struct Pair<'a> {
     /// Coefficients of the first.
@@ -55,8 +58,17 @@ pub fn zeros_of_pair(pair: &Pair, meaning: &dyn Meaning, budget: &mut u64, out: 
     });
     let scratch = vec![0.0; 2 * count];
     let first = out.len();
-    let mut walk =
-        Walk { degree: pair.degree, count, memory, scratch, growth, meaning, out, first };
+    let mut walk = Walk {
+        degree: pair.degree,
+        count,
+        memory,
+        scratch,
+        growth,
+        meaning,
+        out,
+        first,
+        looked: 0,
+    };
     let mut waiting = vec![Area { low: [0.0; 2], high: [1.0; 2], error: pair.error }];
     while let Some(area) = waiting.pop() {
         match walk.judge(&area, waiting.len(), budget) {
@@ -80,6 +92,8 @@ struct Walk<'a, 'b> {
     meaning: &'a dyn Meaning,
     out: &'b mut Vec<Zero<2>>,
     first: usize,
+    /// Boxes looked at.
+    looked: u32,
 }
 
 fn greatest((low, high): (f64, f64)) -> f64 {
@@ -101,7 +115,8 @@ impl Walk<'_, '_> {
         if self.isolate(area, at) {
             return Verdict::Closed;
         }
-        let is_noise = (0..2).all(|k| sizes[k] <= NOISE * area.error[k]);
+        self.looked += 1;
+        let is_noise = self.looked > PATIENCE || (0..2).all(|k| sizes[k] <= NOISE * area.error[k]);
         if self.meaning.is_flat(area.low, area.high, sizes, is_noise) {
             self.out.push(Zero::area(Found::Flat, area.low, area.high));
             return Verdict::Closed;
