@@ -374,17 +374,18 @@ fn minima_and_maxima_of_a_grid_are_members() {
     log.close("grid", 0.1);
 }
 
-/// Whether some short step improves on a place by more than rounding: the walk was stuck.
+/// Whether some step, anywhere or along a parameter line, improves on a place by more than rounding: the walk was stuck.
 fn is_stuck(shape: &Shape, query: Vector, at: [f64; 2], down: bool) -> bool {
     let [u0, u1, v0, v1] = shape.domain();
     let here = sub(shape.evaluate(at), query);
     let limit = 1e-12 * dot(here, here);
     let r = &mut Random(1);
-    (0..4_000).any(|_| {
-        let size = r.scale(-9.0, -2.0);
+    (0..4_000).any(|k| {
+        let size = r.scale(-9.0, -1.0);
         let moved =
             |x: f64, low: f64, high: f64, s: f64| (x + s * size * (high - low)).clamp(low, high);
         let [a, b, _] = r.vector();
+        let [a, b] = [[a, b], [a, 0.0], [0.0, b]][k % 3];
         let there = sub(shape.evaluate([moved(at[0], u0, u1, a), moved(at[1], v0, v1, b)]), query);
         let change = dot(there, there) - dot(here, here);
         if down { change < -limit } else { change > limit }
