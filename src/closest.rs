@@ -26,6 +26,8 @@ mod collapsed;
 
 mod patch;
 
+mod ties;
+
 mod local;
 
 mod curve;
@@ -33,7 +35,7 @@ mod curve;
 mod surface;
 
 use crate::bounds::{HALF_ULP, Vector, norm, sub};
-use crate::index::Frame;
+use crate::index::{Frame, position_error};
 use crate::refine::Method;
 use crate::tree::Queue;
 use proof::Proof;
@@ -54,9 +56,12 @@ pub mod flag {
     pub const SEAM: u32 = 8;
     /// The foot lies on a collapsed edge: a whole parameter interval maps to it.
     pub const COLLAPSED: u32 = 16;
-    /// Another foot lies within the accuracy of the least distance.
+    /// Another foot lies within the accuracy of the least distance, or that could not be excluded within the budget.
+    ///
+    /// Feet are points in space: a seam or a self-intersection is one foot, and so are places nearer to one another than
+    /// eight times the root of distance times accuracy. At a distance below half the accuracy there are no ties.
     pub const TIE: u32 = 32;
-    /// The feet form a continuum.
+    /// The feet form a continuum, the same distance up to rounding. A tie as well.
     pub const CONTINUUM: u32 = 64;
     /// Inversion: proven farther than the tolerance.
     pub const NOT_ON_SHAPE: u32 = 128;
@@ -148,6 +153,7 @@ pub use crate::refine::Trace;
 pub struct Workspace {
     queue: Queue,
     deferred: Vec<(f64, usize)>,
+    loose: Vec<(f64, usize)>,
     start: Vec<f64>,
     line: line::LineMemory,
     patch: patch::PatchMemory,
@@ -174,12 +180,25 @@ pub fn rounding_floor(frame: &Frame, query: Vector, position: f64) -> f64 {
     16.0 * HALF_ULP * largest + 8.0 * position / frame.scale
 }
 
+/// The gap that rounding leaves to a search: eight times what a position in the shape may be off, four on either side
+/// of the target. `steps` from [`position_steps`] of the shape's degrees.
+fn search_floor(frame: &Frame, query: Vector, steps: f64, rational: bool) -> f64 {
+    let size = norm(frame.enter(query));
+    8.0 * position_error(steps, rational, 2.0, size + 2.0, size) / frame.scale
+}
+
+/// Whether the coordinates are so large beside the shape that a rounded point says less about its distance than the
+/// search does: then iterations across pieces use the vector from the query, which is not rounded to coordinates.
+fn is_coarse(frame: &Frame, query: Vector, search_floor: f64) -> bool {
+    rounding_floor(frame, query, 0.0) > 0.25 * search_floor
+}
+
 /// Steps in the local parameters at which a continuum of feet must still be one.
 const CONTINUUM_STEPS: [f64; 2] = [1.0 / 32.0, 1.0 / 16.0];
 
-/// Most of the box diagonal that the grain of the parameters (speed times the gap between doubles) may add to the
-/// rounding floor; where it is coarser, the parameters cannot say where the foot is and the answer is not proven.
-pub const MOST_GRAIN: f64 = 1e-9;
+/// Share of the box diagonal up to which the grain of the parameters (speed times the gap between doubles) may widen the
+/// allowed gap; where it is coarser, the parameters cannot say where the foot is and the answer is not proven.
+pub const MOST_GAP: f64 = 9e-10;
 
 /// Distance from `x` to the next double away from zero.
 fn ulp(x: f64) -> f64 {
@@ -200,6 +219,11 @@ impl QueryOptions {
     }
 }
 
+/// The allowed gap where no doubles are nearer to the parameters than `grain` in space.
+fn grained(allowed: f64, grain: f64, frame: &Frame) -> f64 {
+    allowed.max((allowed + grain).min(MOST_GAP * frame.diagonal))
+}
+
 /// What every global answer ends with: the bound in the caller's lengths and the flags of the certificate.
 fn certify(foot: &mut FootPoint, proof: &Proof, frame: &Frame, allowed: f64) {
     let bound = proof.proven() / frame.scale;
@@ -209,12 +233,9 @@ fn certify(foot: &mut FootPoint, proof: &Proof, frame: &Frame, allowed: f64) {
         foot.flags |= flag::BUDGET;
     }
     let gap = foot.distance - foot.lower_bound;
-    foot.flags &= !(flag::NOT_PROVEN | flag::TIE);
+    foot.flags &= !flag::NOT_PROVEN;
     if gap.is_nan() || gap > allowed {
         foot.flags |= flag::NOT_PROVEN;
-    }
-    if proof.is_tied() {
-        foot.flags |= flag::TIE;
     }
 }
 

@@ -112,6 +112,17 @@ impl Curve {
         self.position(reference, self.sum(span, basis, reference))
     }
 
+    /// `evaluate(u) - query`, without the rounding of the point to its coordinates.
+    pub fn vector_from(&self, query: [f64; 3], u: f64) -> [f64; 3] {
+        let span = self.knots.span(u);
+        let mut basis = [0.0; ORDER];
+        let basis = &mut basis[..=self.degree()];
+        basis::values(&self.knots, span, u, basis);
+        let reference = self.reference(span, basis);
+        let apart = std::array::from_fn(|axis| reference[axis] - query[axis]);
+        self.position(apart, self.sum(span, basis, reference))
+    }
+
     /// The derivatives of order 0 to `count` at `u`, sided like [`Curve::evaluate`], into `out[0..=count]`.
     ///
     /// `out[0]` has the same bits as `evaluate(u)`, whatever `count` is; `count` is at most [`MAX_DEGREE`].

@@ -28,7 +28,7 @@ mod surface;
 
 use crate::bounds::{Vector, norm, sub};
 use crate::closest::FootPoint;
-use crate::set::{FootSet, Kind, Member, Nature, touch};
+use crate::set::{FootSet, Kind, Member, Nature};
 
 /// What is asked for. The default is every stationary point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -118,6 +118,9 @@ struct Taken {
     distance: f64,
 }
 
+/// Parameters nearer to each other than this share of the range are beside each other.
+const BESIDE: f64 = 1e-7;
+
 /// Points nearer to each other than this share of the diagonal may be one point seen from two pieces.
 const NEAR: f64 = 1e-8;
 
@@ -126,40 +129,31 @@ impl Taken {
         Self { candidate, point: member.foot.point, distance: member.foot.distance }
     }
 
-    /// Whether a flat area is a part of this one: they touch, after one of the `turns`, at one distance.
-    fn touches(
-        &self,
-        other: &Candidate,
-        foot: &FootPoint,
-        accuracy: f64,
-        turns: &[[f64; 2]],
-    ) -> bool {
-        let moved = |t: &[f64; 2]| {
-            let b = other.area;
-            [b[0] + t[0], b[1] + t[0], b[2] + t[1], b[3] + t[1]]
-        };
-        let level = (foot.distance - self.distance).abs() <= 8.0 * accuracy;
-        level && turns.iter().any(|t| touch(&self.candidate.area, &moved(t)))
-    }
-
     /// Whether another candidate, whose foot this is, means the same place. `holds(area, at)` tells whether a place lies
-    /// in an area, across seams too.
+    /// in an area, `beside(at)` whether it is next to the other one; both across seams too.
     ///
     /// The box in which a zero is alone may be large: two zeros are one only if each lies in the other's box, and their
-    /// points are near too (corners may be near in their parameters only). A flat area takes in what lies in it.
+    /// points are near too (corners may be near in their parameters only), or if they
+    /// were found alike and are beside each other. A flat area takes in what lies in it.
     fn is_same(
         &self,
         other: &Candidate,
         foot: &FootPoint,
         (diagonal, accuracy): (f64, f64),
         holds: impl Fn(&[f64; 4], [f64; 2]) -> bool,
+        beside: impl Fn([f64; 2]) -> bool,
     ) -> bool {
         let within = holds(&self.candidate.area, other.at);
         if self.candidate.source == Source::Flat {
             return within && (foot.distance - self.distance).abs() <= 8.0 * accuracy;
         }
         let near = norm(sub(foot.point, self.point)) <= NEAR * diagonal + accuracy;
-        within && near && holds(&other.area, self.candidate.at)
+        let zero = |source: Source| matches!(source, Source::Inside | Source::OnEnd);
+        let (a, b) = (self.candidate.source, other.source);
+        let level = (foot.distance - self.distance).abs() <= 2.0 * accuracy;
+        let twins = level && ((zero(a) && zero(b)) || a == b);
+        near && ((within && holds(&other.area, self.candidate.at))
+            || (twins && beside(self.candidate.at)))
     }
 }
 

@@ -113,6 +113,18 @@ impl Surface {
 
     /// The point at (u, v) in the domain: right-sided at a knot, left-sided at the domain's end.
     pub fn evaluate(&self, u: f64, v: f64) -> [f64; 3] {
+        let (reference, sum) = self.sum(u, v);
+        self.position(reference, sum)
+    }
+
+    /// `evaluate(u, v) - query`, without the rounding of the point to its coordinates.
+    pub fn vector_from(&self, query: [f64; 3], u: f64, v: f64) -> [f64; 3] {
+        let (reference, sum) = self.sum(u, v);
+        self.position(std::array::from_fn(|axis| reference[axis] - query[axis]), sum)
+    }
+
+    /// A pole near (u, v), and the sum of what is recentred there: coordinates times weights, weights.
+    fn sum(&self, u: f64, v: f64) -> ([f64; 3], [f64; 4]) {
         debug_assert!(self.knots_u.contains(u), "u = {u} is outside the domain");
         debug_assert!(self.knots_v.contains(v), "v = {v} is outside the domain");
         let spans = [self.knots_u.span(u), self.knots_v.span(v)];
@@ -129,7 +141,7 @@ impl Surface {
                 sum[axis] += n * row[axis];
             }
         }
-        self.position(reference, sum)
+        (reference, sum)
     }
 
     /// The pole of the largest product of basis functions.

@@ -3,7 +3,7 @@
 
 mod shapes;
 
-use footpoint::closest::{FootPoint, QueryOptions, flag};
+use footpoint::closest::{FootPoint, QueryOptions, Scope, flag};
 use footpoint::curve::Curve;
 use footpoint::index::{IndexedCurve, IndexedSurface};
 use footpoint::knots::Knots;
@@ -20,6 +20,14 @@ fn config() -> ProptestConfig {
         max_shrink_iters: 0,
         ..ProptestConfig::with_cases(400)
     }
+}
+
+/// Families of size 1 near the origin.
+fn moderate() -> impl Strategy<Value = usize> {
+    (0..FAMILIES.len()).prop_filter("size 1", |&k| {
+        let family: &Family = &FAMILIES[k];
+        family.sizes == 0.0 && family.offset == 0.0
+    })
 }
 
 /// The shape with knots and poles mapped.
@@ -159,6 +167,28 @@ proptest! {
         for _ in 0..3 {
             let query = shape.query(r);
             let (foot, mut other) = (ask(&shape, query), ask(&scaled, scale(query)));
+            other.point = other.point.map(|x| x / factor);
+            other.distance /= factor;
+            other.lower_bound /= factor;
+            prop_assert_eq!(bits(&foot), bits(&other), "{:?} {:?}", foot, other);
+        }
+    }
+
+    /// As far as coordinates (1e100) and the squares of distances (1e-150 and more) allow.
+    #[test]
+    fn scaling_from_2_to_the_minus_300_to_2_to_the_300_changes_no_bit(
+        family in moderate(), seed in any::<u64>(), power in -300..=300i32, local in any::<bool>(),
+    ) {
+        let (shape, r) = (Shape::new(family, seed), &mut Random(!seed));
+        let factor = 2f64.powi(power);
+        let scale = |p: Vector| p.map(|x| x * factor);
+        let scaled = mapped(&shape, |u| u, scale);
+        let scope = if local { Scope::Local } else { Scope::Global };
+        let options = QueryOptions { scope, ..QueryOptions::default() };
+        for _ in 0..3 {
+            let (query, hint) = (shape.query(r), local.then(|| shape.place(r)));
+            let foot = shape.ask(query, hint, &options);
+            let mut other = scaled.ask(scale(query), hint, &options);
             other.point = other.point.map(|x| x / factor);
             other.distance /= factor;
             other.lower_bound /= factor;

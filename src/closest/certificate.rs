@@ -4,7 +4,7 @@
 
 use super::proof::Proof;
 use crate::bezier::{Bidegree, convolve_square, scale_down_2d, scale_up_2d};
-use crate::bounds::{HALF_ULP, Vector, dot, norm};
+use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, scaled, sub};
 
 /// Rounding of the coefficients of `N = |r|^2` relative to those of `C = W^2`, as a squared length.
 ///
@@ -38,21 +38,79 @@ pub fn subtract_query(net: &mut [f64], count: usize, query: Vector) -> f64 {
 /// Whether a plane at the proof's target from the query has all of a net on its other side. `net` holds `r` and `W`.
 ///
 /// Two normals are tried: that to the best foot, and that of the summed net. The linear form has no squares, so it
-/// works down to rounding; on the convex side of a shape it closes whole pieces at once.
+/// works down to rounding; on the convex side of a shape it closes whole pieces at once. What lies behind the first plane
+/// ties nowhere but around the best foot; the second one stands at the reach of ties.
 pub fn plane_separates(net: &[f64], count: usize, proof: &Proof, position: f64) -> bool {
-    let least = (proof.target + 2.0 * position) * (1.0 + 32.0 * HALF_ULP);
     let (xyz, w) = net.split_at(3 * count);
-    let beyond = |n: Vector| {
+    let beyond = |n: Vector, least: f64| {
         (0..count).all(|k| {
             n[0] * xyz[k] + n[1] * xyz[count + k] + n[2] * xyz[2 * count + k] > least * w[k]
         })
     };
-    if beyond(proof.direction) {
+    if beyond(proof.direction, least_height(proof.target, position)) {
         return true;
     }
     let n = [0, 1, 2].map(|c| xyz[c * count..(c + 1) * count].iter().sum::<f64>());
     let size = norm(n);
-    size > 0.0 && size.is_finite() && beyond(n.map(|x| x / size))
+    size > 0.0
+        && size.is_finite()
+        && beyond(n.map(|x| x / size), least_height(proof.reach(), position))
+}
+
+/// The height of a net over planes through the query that fit nets longer than they are thick, whose corners are given.
+///
+/// Three normals are tried: that of the plane through the corners, those away from the query and to the best foot; all
+/// made perpendicular to the longest diagonal, twice, so that what is left along it is rounding of 1 and not of the
+/// net's thickness. The net is that far away, less `2 position` and 32 half ulps.
+pub fn tilted_height(net: &[f64], count: usize, corners: [usize; 4], proof: &Proof) -> f64 {
+    let (xyz, w) = net.split_at(3 * count);
+    let pole = |k: usize| [0, 1, 2].map(|c| xyz[c * count + k] / w[k]);
+    let [a, b, c, d] = corners.map(pole);
+    let (first, second) = (sub(d, a), sub(c, b));
+    let longest = if dot(first, first) >= dot(second, second) { first } else { second };
+    let along = scaled(longest, 1.0 / norm(longest));
+    let middle = [0, 1, 2].map(|k| 0.25 * ((a[k] + d[k]) + (b[k] + c[k])));
+    let unit = |n: Vector| scaled(n, 1.0 / norm(n));
+    let across = |n: Vector| unit(sub(n, scaled(along, dot(n, along))));
+    let height = |n: Vector| {
+        let n = across(across(unit(n)));
+        let n = if dot(n, middle) < 0.0 { scaled(n, -1.0) } else { n };
+        if !n.iter().all(|x| x.is_finite()) {
+            return f64::NEG_INFINITY;
+        }
+        let over = |k: usize| n[0] * xyz[k] + n[1] * xyz[count + k] + n[2] * xyz[2 * count + k];
+        (0..count).map(|k| over(k) / w[k]).fold(f64::INFINITY, f64::min)
+    };
+    height(cross(first, second)).max(height(middle)).max(height(proof.direction))
+}
+
+/// The height that a net must have over a plane to be farther than `level`.
+pub fn least_height(level: f64, position: f64) -> f64 {
+    (level + 2.0 * position) * (1.0 + 32.0 * HALF_ULP)
+}
+
+/// How a net (`r` and `W`) lies to what counts as one foot.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Nearness {
+    /// All of it is so near to the best foot that nothing in it counts as another one.
+    pub around_foot: bool,
+    /// It is so small that it holds one foot at most.
+    pub small: bool,
+}
+
+/// See [`Nearness`].
+pub fn nearness(net: &[f64], count: usize, proof: &Proof) -> Nearness {
+    let home = proof.direction.map(|x| x * proof.best);
+    let (xyz, w) = net.split_at(3 * count);
+    let pole = |k: usize| [0, 1, 2].map(|c| xyz[c * count + k] / w[k]);
+    let (first, apart) = (pole(0), proof.apart_squared());
+    let within = |from: Vector, most: f64| {
+        (0..count).map(pole).all(|x| {
+            let move_ = sub(x, from);
+            dot(move_, move_) <= most
+        })
+    };
+    Nearness { around_foot: within(home, apart), small: within(first, apart / 64.0) }
 }
 
 /// As [`plane_separates`] with the normal to the best foot, for poles `X` (and `W` when rational).
@@ -65,7 +123,7 @@ pub fn foot_plane_separates(
     position: f64,
 ) -> bool {
     let n = proof.direction;
-    let least = (proof.target + 2.0 * position) * (1.0 + 32.0 * HALF_ULP) + dot(n, query);
+    let least = least_height(proof.target, position) + dot(n, query);
     let height = |k: usize| n[0] * poles[k] + n[1] * poles[count + k] + n[2] * poles[2 * count + k];
     if rational {
         (0..count).all(|k| height(k) > least * poles[3 * count + k])

@@ -1,13 +1,17 @@
 //! Nearest point of a curve.
 
+mod ties;
+
+pub use ties::{neighbour, shortest, wrapped};
+
 use super::certificate::squared_error;
 use super::line::{Given, Line, LineMemory, search_line};
 use super::local::{LOCAL_FLAGS, WholeCurve, curve_start};
-use super::proof::{Proof, Site, Watch};
+use super::proof::{Proof, Site, Watch, note_loose};
 use super::{
-    CONTINUUM_STEPS, FootPoint, MOST_GRAIN, QueryOptions, Scope, Workspace, certify,
-    default_budget, distance, far_foot, flag, is_bad, mark_inversion, rounding_floor, tree_limit,
-    tree_slack, ulp,
+    CONTINUUM_STEPS, FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, distance,
+    far_foot, flag, grained, is_bad, is_coarse, mark_inversion, rounding_floor, search_floor,
+    tree_limit, tree_slack, ulp,
 };
 use crate::bounds::{Vector, cross, dot, norm, sub};
 use crate::error::Error;
@@ -79,6 +83,17 @@ impl IndexedCurve {
         domain.map_or([first, last], |d| [d[0].max(first), d[1].min(last)])
     }
 
+    /// The gap that rounding leaves to a search.
+    fn floor(index: &CurveIndex, query: Vector) -> f64 {
+        search_floor(&index.frame, query, position_steps(index.degree()), index.is_rational())
+    }
+
+    /// The shape as an iteration across pieces sees it.
+    fn whole(&self, index: &CurveIndex, query: Vector, floor: f64) -> WholeCurve<'_> {
+        let coarse = is_coarse(&index.frame, query, floor);
+        WholeCurve { curve: self.curve(), query, scale: index.frame.scale, coarse }
+    }
+
     fn local(
         &self,
         index: &CurveIndex,
@@ -90,7 +105,7 @@ impl IndexedCurve {
     ) -> FootPoint {
         let start = hint
             .unwrap_or_else(|| curve_start(index, index.frame.enter(query), &mut workspace.start));
-        let curve = WholeCurve { curve: self.curve(), query };
+        let curve = self.whole(index, query, Self::floor(index, query));
         let (u, _, taken) =
             foot_on_curve(&curve, start, self.range(options), options.method, trace);
         let mut foot = self.foot_at(index, query, u, self.range(options));
@@ -111,22 +126,24 @@ impl IndexedCurve {
         let traced = trace.is_some();
         let q = index.frame.enter(query);
         let steps = position_steps(index.degree());
-        let worst = position_error(steps, index.is_rational(), 2.0, norm(q) + 2.0, norm(q));
-        let allowed =
-            options.accuracy(&index.frame).max(rounding_floor(&index.frame, query, worst));
+        let floor = Self::floor(index, query);
+        let gap = options.accuracy(&index.frame).max(floor);
+        let allowed = gap.max(floor + rounding_floor(&index.frame, query, 0.0));
         let budget = if options.budget > 0 {
             options.budget
         } else {
             default_budget(2 * index.degree() + 1)
         };
-        let search = CurveSearch { index, query: q, range: self.range(options), options, steps };
+        let whole = self.whole(index, query, floor);
+        let range = self.range(options);
+        let search = CurveSearch { index, whole, query: q, range, options, steps };
         let mut tell = |step: u32, site: Site, d: f64| {
             if let Some(trace) = &mut trace {
                 trace(step, search.parameter(site), 0.0, d / index.frame.scale);
             }
         };
         let watch: Option<Watch> = if traced { Some(&mut tell) } else { None };
-        let mut proof = Proof::new(0.5 * allowed * index.frame.scale, budget, watch);
+        let mut proof = Proof::new(0.5 * gap * index.frame.scale, budget, watch);
         if let Some(u) = hint {
             search.start_at(u, &mut proof);
         }
@@ -146,6 +163,9 @@ impl IndexedCurve {
         }
         if proof.flat.is_some() && search.is_continuum(site, &proof) {
             foot.flags |= flag::CONTINUUM | flag::TIE;
+        } else {
+            foot.flags |= search.ties(workspace, &mut proof);
+            foot.iterations = proof.evaluations;
         }
         if hint.is_some() {
             foot.flags |= flag::HINT_USED;
@@ -179,7 +199,7 @@ impl IndexedCurve {
             }
         }
         *foot = best;
-        certify(foot, proof, &index.frame, allowed + grain.min(MOST_GRAIN * index.frame.diagonal));
+        certify(foot, proof, &index.frame, grained(allowed, grain, &index.frame));
     }
 
     /// The record at a parameter, with the flags of the place.
@@ -244,6 +264,8 @@ impl IndexedCurve {
 /// One global search on a curve.
 struct CurveSearch<'a> {
     index: &'a CurveIndex,
+    /// The curve and the query as the caller has them.
+    whole: WholeCurve<'a>,
     query: Vector,
     range: [f64; 2],
     options: &'a QueryOptions,
@@ -271,8 +293,7 @@ impl CurveSearch<'_> {
             && [-1.0, 1.0].into_iter().any(|side| {
                 CONTINUUM_STEPS.into_iter().all(|step| {
                     let s = site.at[0] + side * step;
-                    let near = norm(view.0.jet(s.clamp(0.0, 1.0), view.1).d)
-                        <= proof.best + proof.window();
+                    let near = norm(view.0.jet(s.clamp(0.0, 1.0), view.1).d) <= proof.level();
                     (range[0]..=range[1]).contains(&s) && near
                 })
             })
@@ -300,6 +321,11 @@ impl CurveSearch<'_> {
     /// Goes on in the neighbour when the best foot lies on the knot between two segments: the search leaves out what
     /// is nearer by less than the accuracy, the foot should not.
     fn polish(&self, proof: &mut Proof) {
+        if let (Some(site), true) = (proof.site, proof.is_cut_off) {
+            if let Some(range) = self.local_range(site.piece) {
+                self.iterate_from(site.piece, site.at[0], range, proof);
+            }
+        }
         let Some(site) = proof.site else { return };
         let (piece, start) = match site.at[0] {
             0.0 => (site.piece.wrapping_sub(1), 1.0),
@@ -316,6 +342,7 @@ impl CurveSearch<'_> {
     fn walk(&self, workspace: &mut Workspace, proof: &mut Proof) {
         let slack = tree_slack(self.query);
         self.index.tree.start(&mut workspace.queue);
+        workspace.loose.clear();
         while let Some(next) = workspace.queue.pop() {
             let limit = tree_limit(proof, slack);
             if proof.is_trivial() || next.key > limit {
@@ -323,7 +350,10 @@ impl CurveSearch<'_> {
             }
             match next.piece() {
                 None => self.index.tree.open(next, self.query, limit, &mut workspace.queue),
-                Some(k) => self.search(k, &mut workspace.line, proof),
+                Some(k) => {
+                    self.search(k, &mut workspace.line, proof);
+                    note_loose(k, &mut workspace.loose, proof);
+                }
             }
         }
     }

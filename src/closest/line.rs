@@ -8,8 +8,8 @@
 //! ```
 
 use super::certificate::{
-    free_slope, plane_separates, slope_error, square, squared_error, subtract_query, underflows,
-    value_at,
+    free_slope, nearness, plane_separates, slope_error, square, squared_error, subtract_query,
+    underflows, value_at,
 };
 use super::proof::{Proof, Site};
 use crate::bezier::{Bidegree, cut, halve_t};
@@ -23,6 +23,8 @@ use crate::refine::{Method, foot_on_curve};
 const MAX_WAITING: usize = 64;
 /// Narrowest box: below it the parameters have no digits left to tell points apart.
 const LEAST_WIDTH: f64 = 1e-14;
+/// Evaluations after which an iteration may have ended at its step limit.
+const LONG: u32 = 40;
 /// Halvings after which coefficients are rebuilt from the poles, to shed their rounding.
 const FRESH: u32 = 8;
 
@@ -51,6 +53,8 @@ struct Interval {
     error: f64,
     radius: f64,
     age: u32,
+    /// In a walk for ties: whether it holds one foot at most.
+    small: bool,
 }
 
 /// Memory of the search on lines.
@@ -143,7 +147,7 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         }
         self.memory.waiting.push(first);
         while let Some(mut interval) = self.memory.waiting.pop() {
-            if self.proof.is_trivial() {
+            if self.proof.is_trivial() || self.proof.has_news() {
                 return;
             }
             let at = self.memory.waiting.len();
@@ -184,7 +188,7 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
 
     fn judge(&mut self, interval: &mut Interval, at: usize) -> Verdict {
         let (mut least, mut place) = self.least_ratio(at);
-        if self.is_beyond(interval, least, place) {
+        if self.is_beyond(interval, least) {
             return Verdict::Closed;
         }
         if self.proof.best == f64::INFINITY {
@@ -194,12 +198,13 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         if !self.proof.spend() || interval.high - interval.low < LEAST_WIDTH {
             return Verdict::GiveUp;
         }
-        if interval.age >= FRESH || (least > self.proof.target_squared && interval.age > 0) {
+        let close = least > self.proof.level_squared() && interval.age > 0;
+        if interval.age >= FRESH || close || self.proof.tying {
             if self.load(interval, at) {
                 return Verdict::Closed;
             }
             (least, place) = self.least_ratio(at);
-            if self.is_beyond(interval, least, place) {
+            if self.is_beyond(interval, least) {
                 return Verdict::Closed;
             }
         }
@@ -212,17 +217,22 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         if self.convex(interval, at, place) {
             return Verdict::Closed;
         }
+        if interval.small {
+            // What no test can tell here is below rounding.
+            self.iterate(interval, place, [interval.low, interval.high]);
+            return Verdict::Closed;
+        }
         self.probe(interval, place);
         Verdict::Halve
     }
 
-    /// Whether nothing in the interval is nearer than the target; a foot that ties is looked for on the way.
-    fn is_beyond(&mut self, interval: &Interval, least: f64, place: usize) -> bool {
-        if least.is_nan() || least <= self.proof.target_squared + interval.error {
+    /// Whether nothing in the interval is nearer than the target (in a walk for ties: than their reach).
+    fn is_beyond(&mut self, interval: &Interval, least: f64) -> bool {
+        if least.is_nan() || least <= self.proof.level_squared() + interval.error {
             return false;
         }
-        if least <= self.proof.tie_squared() && self.proof.seeks_rivals() {
-            self.iterate(interval, place, [interval.low, interval.high]);
+        if least <= self.proof.tie_squared() + interval.error {
+            self.proof.loosen(self.proof.target);
         }
         true
     }
@@ -236,8 +246,8 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         let s = if end == 0 { interval.low } else { interval.high };
         let jet = self.line.segment.jet(s, self.line.query);
         self.proof.evaluations += 1;
-        self.proof.rival(jet.d);
         self.proof.offer((self.line.site)(s), jet.d, || None);
+        self.proof.rival((self.line.site)(s), jet.d);
     }
 
     /// Coefficients of `N - mu C` into half `part` of the scratch memory.
@@ -256,9 +266,9 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
     /// The end at which `h` is least, when it is strictly monotone for every squared distance that a nearest
     /// point in this interval can have.
     fn monotone(&mut self, interval: &Interval, at: usize, least: f64) -> Option<usize> {
-        let reach = self.proof.best + self.proof.gap;
-        self.form(at, 0, (least - interval.error).max(0.0));
-        self.form(at, 1, reach * reach);
+        let [first, last] = self.proof.counted(least - interval.error);
+        self.form(at, 0, first);
+        self.form(at, 1, last);
         let allowance = 2.0 * interval.error * self.greatest_weight(at);
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for h in self.memory.h[..2 * self.count].chunks_exact(self.count) {
@@ -293,14 +303,16 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         }
         let (s, jet, taken) = found;
         self.proof.evaluations += taken;
-        if (s > low || low == self.line.range[0]) && (s < high || high == self.line.range[1]) {
-            self.proof.rival(jet.d);
-        }
         let along = || {
             let (a, b) = ((self.line.site)(0.0).at, (self.line.site)(1.0).at);
             jet.is_flat().then_some([b[0] - a[0], b[1] - a[1]])
         };
         self.proof.offer((self.line.site)(s), jet.d, along);
+        self.proof.rival((self.line.site)(s), jet.d);
+        let [first, last] = self.line.range;
+        if (s == low && low != first) || (s == high && high != last) || taken >= LONG {
+            self.proof.cut_off((self.line.site)(s));
+        }
         (s, jet)
     }
 
@@ -315,25 +327,49 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
     fn probe(&mut self, interval: &Interval, place: usize) {
         let jet = self.line.segment.jet(self.abscissa(interval, place), self.line.query);
         self.proof.evaluations += 1;
-        if norm(jet.d) < self.proof.target {
+        if self.proof.attracts(jet.d) {
             self.iterate(interval, place, self.line.range);
         }
     }
 
-    /// Whether convexity and the first-order conditions at the iteration's result prove the target.
+    /// Whether convexity and the first-order conditions at the iteration's result prove the target; in a walk for ties,
+    /// whether convexity proves that there is one foot only.
     fn convex(&mut self, interval: &Interval, at: usize, place: usize) -> bool {
         let weight = self.greatest_weight(at);
-        if self.curvature(interval, at, weight) <= 0.0 {
+        let mu = self.proof.level_squared();
+        if self.curvature(interval, at, weight, mu) <= 0.0 {
+            return false;
+        }
+        if self.proof.tying && !self.has_one_foot(interval, at, weight) {
             return false;
         }
         let (s, jet) = self.iterate(interval, place, [interval.low, interval.high]);
-        let curvature = self.curvature(interval, at, weight);
-        curvature > 0.0 && self.first_order(interval, s, &jet, curvature)
+        if self.proof.tying {
+            return true;
+        }
+        let curvature = self.curvature(interval, at, weight, self.proof.target_squared);
+        if curvature <= 0.0 || !self.first_order(interval, s, &jet, curvature) {
+            return false;
+        }
+        if self.line.segment.rational && !self.has_one_foot(interval, at, weight) {
+            self.proof.loosen(self.proof.target);
+        }
+        true
     }
 
-    /// A lower bound of the second derivative of `h` at the target, in the interval's own unit parameter.
-    fn curvature(&mut self, interval: &Interval, at: usize, weight: f64) -> f64 {
-        self.form(at, 0, self.proof.target_squared);
+    /// Whether `h`, convex at the level, is so for every squared distance of a foot that counts (it is linear in that, so
+    /// the other end of them decides): then all feet
+    /// are least points of the interval, and there is one.
+    fn has_one_foot(&mut self, interval: &Interval, at: usize, weight: f64) -> bool {
+        let target = self.proof.target;
+        let [first, last] = self.proof.counted(target * target);
+        let other = if self.proof.tying { first } else { last };
+        self.curvature(interval, at, weight, other) > 0.0
+    }
+
+    /// A lower bound of the second derivative of `h` for the squared distance `mu`, in the interval's own unit parameter.
+    fn curvature(&mut self, interval: &Interval, at: usize, weight: f64, mu: f64) -> f64 {
+        self.form(at, 0, mu);
         let n = (self.count - 1) as f64;
         let h = &self.memory.h[..self.count];
         let least =
@@ -369,6 +405,13 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         if self.proof.best.is_finite() && plane_separates(net, size, self.proof, self.line.position)
         {
             return true;
+        }
+        if self.proof.tying {
+            let near = nearness(net, size, self.proof);
+            interval.small = near.small;
+            if near.around_foot {
+                return true;
+            }
         }
         let slot = &mut self.memory.coefficients[at * self.slot..(at + 1) * self.slot];
         square(net, Bidegree { s: 0, t: p }, slot);

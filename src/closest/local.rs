@@ -6,7 +6,7 @@
 
 use super::flag;
 use crate::bezier::{cut, cut_2d};
-use crate::bounds::{Aabb, Vector, norm, sub};
+use crate::bounds::{Aabb, Vector, norm, scaled, sub};
 use crate::curve::Curve;
 use crate::index::{CurveIndex, SurfaceIndex};
 use crate::jet::{Jet1, Jet2};
@@ -22,6 +22,10 @@ pub struct WholeCurve<'a> {
     pub curve: &'a Curve,
     /// The query.
     pub query: Vector,
+    /// What lengths are multiplied by, a power of two: thresholds of the iteration are for shapes of size 1.
+    pub scale: f64,
+    /// Whether a rounded point says too little about its distance.
+    pub coarse: bool,
 }
 
 /// A surface as the local iteration sees it, in the caller's coordinates.
@@ -30,17 +34,31 @@ pub struct WholeSurface<'a> {
     pub surface: &'a Surface,
     /// The query.
     pub query: Vector,
+    /// What lengths are multiplied by, a power of two.
+    pub scale: f64,
+    /// Whether a rounded point says too little about its distance.
+    pub coarse: bool,
 }
 
 impl CurveJets for WholeCurve<'_> {
     fn jet(&self, s: f64) -> Jet1 {
         let mut out = [[0.0; 3]; 3];
         self.curve.derivatives(s, 2, &mut out);
-        Jet1 { d: sub(out[0], self.query), s: out[1], ss: out[2], w: [1.0, 0.0] }
+        out[0] = if self.coarse {
+            self.curve.vector_from(self.query, s)
+        } else {
+            sub(out[0], self.query)
+        };
+        let [d, s, ss] = out.map(|vector| scaled(vector, self.scale));
+        Jet1 { d, s, ss, w: [1.0, 0.0] }
     }
 
     fn global(&self, s: f64) -> [f64; 2] {
         [s, 0.0]
+    }
+
+    fn scale(&self) -> f64 {
+        self.scale
     }
 }
 
@@ -48,12 +66,21 @@ impl SurfaceJets for WholeSurface<'_> {
     fn jet(&self, s: f64, t: f64) -> Jet2 {
         let mut out = [[0.0; 3]; 6];
         self.surface.partials(s, t, 2, &mut out);
-        let [point, s, t, ss, st, tt] = out;
-        Jet2 { d: sub(point, self.query), s, t, ss, st, tt, w: [1.0, 0.0, 0.0] }
+        out[0] = if self.coarse {
+            self.surface.vector_from(self.query, s, t)
+        } else {
+            sub(out[0], self.query)
+        };
+        let [d, s, t, ss, st, tt] = out.map(|vector| scaled(vector, self.scale));
+        Jet2 { d, s, t, ss, st, tt, w: [1.0, 0.0, 0.0] }
     }
 
     fn global(&self, s: f64, t: f64) -> [f64; 2] {
         [s, t]
+    }
+
+    fn scale(&self) -> f64 {
+        self.scale
     }
 }
 

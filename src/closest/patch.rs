@@ -4,25 +4,33 @@
 //! At a collapsed side the derivative along it vanishes for every shape: the collapsed point is looked at once,
 //! and off that side the sign of the derivative of the distance itself is used (see [`Walk::turning`]).
 
+mod sides;
+
 use super::certificate::{
-    foot_plane_separates, free_slope, plane_separates, slope_error, square, squared_error,
-    subtract_query, underflows, value_at,
+    foot_plane_separates, free_slope, least_height, nearness, plane_separates, slope_error, square,
+    squared_error, subtract_query, tilted_height, underflows, value_at,
 };
-use super::collapsed::{along, rational_slope_extent, slope_extent};
 use super::differences::{Slopes, convexity};
-use super::line::{Given, Line, LineMemory, search_line};
+use super::line::LineMemory;
 use super::proof::{Proof, Site};
-use crate::bezier::{Bidegree, cut_2d, halve_s, halve_t, isocurve};
+use crate::bezier::{Bidegree, cut_2d, halve_s, halve_t};
 use crate::bounds::{HALF_ULP, Vector, dot, extent, least, norm};
-use crate::index::{Patch, product_steps, side};
-use crate::jet::{BezierPatch, BezierSegment, Jet2};
+use crate::index::{Patch, product_steps};
+use crate::jet::{BezierPatch, Jet2};
 use crate::knots::MAX_DEGREE;
 use crate::refine::{Method, foot_on_surface};
 
 const MAX_WAITING: usize = 128;
 const LEAST_WIDTH: f64 = 1e-14;
+/// Evaluations after which an iteration may have ended at its step limit.
+const LONG: u32 = 40;
 /// Halvings after which coefficients are rebuilt from the poles, to shed their rounding.
 const FRESH: u32 = 12;
+/// The same in a patch that has taken `HARD` boxes: there planes close what squares do not.
+const FRESH_HARD: u32 = 2;
+const HARD: u64 = 32;
+/// Tilted planes that are tried before one in 16 must have closed its box.
+const TILT_TRIES: u64 = 32;
 
 /// A patch in the search.
 pub struct Sheet<'a> {
@@ -55,6 +63,8 @@ struct Area {
     error: f64,
     radius: f64,
     age: u32,
+    /// In a walk for ties: whether it holds one foot at most.
+    small: bool,
 }
 
 /// Memory of the search on patches.
@@ -93,7 +103,8 @@ pub fn search_patch(sheet: &Sheet, memory: &mut PatchMemory, proof: &mut Proof) 
     let degree = sheet.net.degree.times(sheet.net.degree);
     let count = degree.count();
     let slot = if sheet.net.rational { 2 * count } else { count };
-    Walk { sheet, memory, proof, degree, count, slot }.run()
+    let start = proof.spent;
+    Walk { sheet, memory, proof, degree, count, slot, start, tilts: (0, 0) }.run()
 }
 
 struct Walk<'a, 'b, 't> {
@@ -104,6 +115,10 @@ struct Walk<'a, 'b, 't> {
     degree: Bidegree,
     count: usize,
     slot: usize,
+    /// Boxes that were spent before this patch.
+    start: u64,
+    /// Tilted planes tried, and boxes closed by them.
+    tilts: (u64, u64),
 }
 
 enum Verdict {
@@ -114,8 +129,13 @@ enum Verdict {
 }
 
 impl Walk<'_, '_, '_> {
+    /// Whether the patch has taken many boxes, and tilted planes close enough of them.
+    fn hard(&self) -> bool {
+        let (tries, hits) = self.tilts;
+        self.proof.spent - self.start > HARD && (tries < TILT_TRIES || 16 * hits > tries)
+    }
+
     fn run(&mut self) -> bool {
-        let start = self.proof.spent;
         let [s0, s1, t0, t1] = self.sheet.range;
         let mut first = Area { s: [s0, s1], t: [t0, t1], ..Area::default() };
         self.proof.spread = self.proof.spread.max(self.sheet.patch.spread);
@@ -125,10 +145,10 @@ impl Walk<'_, '_, '_> {
         }
         self.memory.waiting.push(first);
         while let Some(mut area) = self.memory.waiting.pop() {
-            if self.proof.is_trivial() {
+            if self.proof.is_trivial() || self.proof.has_news() {
                 return true;
             }
-            if self.proof.spent - start > self.sheet.patience {
+            if self.proof.spent - self.start > self.sheet.patience {
                 return false;
             }
             let at = self.memory.waiting.len();
@@ -162,27 +182,6 @@ impl Walk<'_, '_, '_> {
             }
             _ => self.load(first, 0),
         }
-    }
-
-    /// The collapsed points are candidates of their own.
-    fn look_at_collapsed_sides(&mut self) {
-        let corner: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [0.0, 0.0], [0.0, 1.0]];
-        for k in 0..4 {
-            let inner = self.sheet.range[k] == [0.0, 1.0, 0.0, 1.0][k];
-            if self.sheet.patch.collapsed[k] && inner {
-                let at = [0, 1].map(|c| {
-                    corner[k][c].clamp(self.sheet.range[2 * c], self.sheet.range[2 * c + 1])
-                });
-                self.look_at(at);
-            }
-        }
-    }
-
-    fn look_at(&mut self, at: [f64; 2]) -> Jet2 {
-        let jet = self.sheet.net.jet(at[0], at[1], self.sheet.query);
-        self.proof.evaluations += 1;
-        self.proof.offer(Site { piece: self.sheet.piece, at }, jet.d, || None);
-        jet
     }
 
     /// Slot 0 from the tensors: `N = A - 2 p.B + |p|^2 C`.
@@ -238,14 +237,13 @@ impl Walk<'_, '_, '_> {
         }
     }
 
-    /// Whether nothing in the area is nearer than the target; a foot that ties is looked for on the way.
+    /// Whether nothing in the area is nearer than the target (in a walk for ties: than their reach).
     fn is_beyond(&mut self, area: &Area, at: usize) -> bool {
-        if !self.all_beyond(at, self.proof.target_squared + area.error) {
+        if !self.all_beyond(at, self.proof.level_squared() + area.error) {
             return false;
         }
-        if !self.all_beyond(at, self.proof.tie_squared()) && self.proof.seeks_rivals() {
-            let start = self.start(area, self.least_ratio(at).1);
-            self.iterate([area.s[0], area.s[1], area.t[0], area.t[1]], start);
+        if !self.proof.tying && !self.all_beyond(at, self.proof.tie_squared() + area.error) {
+            self.proof.loosen(self.proof.target);
         }
         true
     }
@@ -283,7 +281,9 @@ impl Walk<'_, '_, '_> {
             return Verdict::GiveUp;
         }
         let (mut bound, mut place) = self.least_ratio(at);
-        if area.age >= FRESH || (bound > self.proof.target_squared && area.age > 0) {
+        let close = bound > self.proof.level_squared() && area.age > 0;
+        let fresh = if self.hard() { FRESH_HARD } else { FRESH };
+        if area.age >= fresh || close || self.proof.tying {
             if self.load(area, at) || self.is_beyond(area, at) {
                 return Verdict::Closed;
             }
@@ -299,6 +299,12 @@ impl Walk<'_, '_, '_> {
             }
         }
         if self.turning(area, at, weight) || self.convex(area, at, place, weight) {
+            return Verdict::Closed;
+        }
+        if area.small {
+            // What no test can tell here is below rounding.
+            let start = self.start(area, place);
+            self.iterate([area.s[0], area.s[1], area.t[0], area.t[1]], start);
             return Verdict::Closed;
         }
         self.probe(area, place);
@@ -323,87 +329,17 @@ impl Walk<'_, '_, '_> {
 
     /// First differences of `h` over every squared distance that a nearest point in this area can have.
     fn slopes(&mut self, area: &Area, at: usize, bound: f64) -> Slopes {
-        let reach = self.proof.best + self.proof.gap;
-        self.form(at, 0, (bound - area.error).max(0.0));
+        let [first, last] = self.proof.counted(bound - area.error);
+        self.form(at, 0, first);
         let parts = if self.sheet.net.rational { 2 } else { 1 };
         if parts == 2 {
-            self.form(at, 1, reach * reach);
+            self.form(at, 1, last);
         }
         let mut slopes = Slopes::NONE;
         for h in self.memory.h[..parts * self.count].chunks_exact(self.count) {
             slopes.include(h, self.degree);
         }
         slopes
-    }
-
-    /// Goes on along side `k` of the area, if that can hold the nearest point at all.
-    fn follow_side(&mut self, area: &Area, at: usize, k: usize) {
-        let ends = [area.s[0], area.s[1], area.t[0], area.t[1]];
-        let outer = ends[k] == self.sheet.range[k];
-        let collapsed = self.sheet.patch.collapsed[k] && ends[k] == [0.0, 1.0, 0.0, 1.0][k];
-        if !outer || !self.sheet.border[k] || collapsed {
-            return;
-        }
-        let along_s = k == side::T0 || k == side::T1;
-        let (range, first) = if along_s { (area.s, side::S0) } else { (area.t, side::T0) };
-        let border =
-            [0, 1].map(|e| self.sheet.border[first + e] && range[e] == self.sheet.range[first + e]);
-        let mut memory = std::mem::take(&mut self.memory.edge);
-        let p = self.edge_net(k, ends[k], &mut memory);
-        let components = if self.sheet.net.rational { 4 } else { 3 };
-        let (net, product) = memory.split_at_mut(4 * (MAX_DEGREE + 1));
-        let (n, c) = product.split_at_mut(2 * MAX_DEGREE + 1);
-        let (n, c) = (&mut n[..=2 * p], &mut c[..=2 * p]);
-        let rational = self.sheet.net.rational;
-        for i in 0..=2 * p {
-            let place = self.place_on_side(k, i);
-            n[i] = self.n(at)[place];
-            if rational {
-                c[i] = self.c(at)[place];
-            }
-        }
-        let (piece, fixed) = (self.sheet.piece, ends[k]);
-        let site = |x: f64| Site { piece, at: if along_s { [x, fixed] } else { [fixed, x] } };
-        let line = Line {
-            segment: BezierSegment { degree: p, rational, poles: &net[..components * (p + 1)] },
-            query: self.sheet.query,
-            position: self.sheet.position,
-            range,
-            border,
-            site: &site,
-            method: self.sheet.method,
-        };
-        let c = if rational { &c[..] } else { &[] };
-        let given = Given { n, c, error: area.error, radius: area.radius };
-        search_line(&line, Some(given), &mut self.memory.line, self.proof);
-        self.memory.edge = memory;
-    }
-
-    /// Index of product coefficient `i` along side `k`.
-    fn place_on_side(&self, k: usize, i: usize) -> usize {
-        let width = self.degree.t + 1;
-        match k {
-            side::S0 => i,
-            side::S1 => self.degree.s * width + i,
-            side::T0 => i * width,
-            _ => i * width + self.degree.t,
-        }
-    }
-
-    /// The poles of the isocurve on side `k` at parameter `x`, into `out`; returns its degree.
-    fn edge_net(&mut self, k: usize, x: f64, out: &mut [f64]) -> usize {
-        let degree = self.sheet.net.degree;
-        let (rows, columns) = (degree.s + 1, degree.t + 1);
-        let across_s = k == side::S0 || k == side::S1;
-        let size = if across_s { columns } else { rows };
-        for (component, edge) in
-            self.sheet.net.poles.chunks_exact(rows * columns).zip(out.chunks_exact_mut(size))
-        {
-            let work = &mut self.memory.net[..rows * columns];
-            work.copy_from_slice(component);
-            isocurve(work, degree, across_s, x, edge);
-        }
-        size - 1
     }
 
     /// The Greville abscissae of coefficient `place`.
@@ -431,7 +367,7 @@ impl Walk<'_, '_, '_> {
         let at = self.abscissa(area, place);
         let jet = self.sheet.net.jet(at[0], at[1], self.sheet.query);
         self.proof.evaluations += 1;
-        if norm(jet.d) < self.proof.target {
+        if self.proof.attracts(jet.d) {
             self.iterate(self.sheet.range, at);
         }
     }
@@ -455,34 +391,53 @@ impl Walk<'_, '_, '_> {
         }
         let (at, jet, taken) = found;
         self.proof.evaluations += taken;
-        let inner = |k: usize| {
-            let [low, high] = [range[2 * k], range[2 * k + 1]];
-            (at[k] > low || low == self.sheet.range[2 * k])
-                && (at[k] < high || high == self.sheet.range[2 * k + 1])
-        };
-        if inner(0) && inner(1) {
-            self.proof.rival(jet.d);
-        }
         self.proof.offer(Site { piece, at }, jet.d, || jet.flat_direction());
+        self.proof.rival(Site { piece, at }, jet.d);
+        let inner = |k: usize| range[k] != self.sheet.range[k] && at[k / 2] == range[k];
+        if (0..4).any(inner) || taken >= LONG {
+            self.proof.cut_off(Site { piece, at });
+        }
         (at, jet)
     }
 
-    /// Whether convexity and the first-order conditions at the iteration's result prove the target.
+    /// Whether convexity and the first-order conditions at the iteration's result prove the target; in a walk for ties,
+    /// whether convexity proves that there is one foot only.
     fn convex(&mut self, area: &Area, at: usize, place: usize, weight: f64) -> bool {
-        if self.curvature(area, at, weight).is_none() {
+        let tying = self.proof.tying;
+        let mu = self.proof.level_squared();
+        if self.curvature(area, at, weight, mu).is_none()
+            || (tying && !self.has_one_foot(area, at, weight))
+        {
             return false;
         }
         let start = self.start(area, place);
         let (found, jet) = self.iterate([area.s[0], area.s[1], area.t[0], area.t[1]], start);
-        match self.curvature(area, at, weight) {
+        if tying {
+            return true;
+        }
+        let proven = match self.curvature(area, at, weight, self.proof.target_squared) {
             Some(m) => self.first_order(area, found, &jet, m),
             None => false,
+        };
+        if proven && self.sheet.net.rational && !self.has_one_foot(area, at, weight) {
+            self.proof.loosen(self.proof.target);
         }
+        proven
     }
 
-    /// Bounds of the second derivatives of `h` at the target (see [`convexity`]).
-    fn curvature(&mut self, area: &Area, at: usize, weight: f64) -> Option<[f64; 3]> {
-        self.form(at, 0, self.proof.target_squared);
+    /// Whether `h`, convex at the level, is so for every squared distance of a foot that counts (it is linear in that, so
+    /// the other end of them decides): then all feet
+    /// are least points of the area, and there is one.
+    fn has_one_foot(&mut self, area: &Area, at: usize, weight: f64) -> bool {
+        let target = self.proof.target;
+        let [first, last] = self.proof.counted(target * target);
+        let other = if self.proof.tying { first } else { last };
+        self.curvature(area, at, weight, other).is_some()
+    }
+
+    /// Bounds of the second derivatives of `h` for the squared distance `mu` (see [`convexity`]).
+    fn curvature(&mut self, area: &Area, at: usize, weight: f64, mu: f64) -> Option<[f64; 3]> {
+        self.form(at, 0, mu);
         convexity(&self.memory.h[..self.count], self.degree, 4.0 * area.error * weight)
     }
 
@@ -505,46 +460,23 @@ impl Walk<'_, '_, '_> {
         value > 0.0 && loss <= 2.0 * value * (1.0 - 1e-10)
     }
 
-    /// At a collapsed side: whether the distance changes strictly along the side everywhere off it (see
-    /// `collapsed`). Then only the collapsed point or a border can be nearest.
-    fn turning(&mut self, area: &Area, at: usize, weight: f64) -> bool {
-        let ends = [area.s[0], area.s[1], area.t[0], area.t[1]];
-        let touched =
-            (0..4).find(|&k| self.sheet.patch.collapsed[k] && ends[k] == [0.0, 1.0, 0.0, 1.0][k]);
-        let Some(k) = touched else { return false };
-        let ((low, high), allowance) = self.turning_extent(area, at, k, weight);
-        if low > allowance || high < -allowance {
-            self.follow_side(area, at, 2 * along(k) + usize::from(high < 0.0));
-            return true;
-        }
-        false
-    }
-
-    /// Extent of the slope along side `k` off that side, and its rounding.
-    fn turning_extent(
-        &mut self,
-        area: &Area,
-        at: usize,
-        k: usize,
-        weight: f64,
-    ) -> ((f64, f64), f64) {
-        let mut memory = std::mem::take(&mut self.memory.turning);
-        let n_degree = [self.degree.s, self.degree.t][along(k)] as f64;
-        let found = if self.sheet.net.rational {
-            let net = self.sheet.net.degree;
-            let w = &mut self.memory.weights;
-            w.clear();
-            w.extend_from_slice(&self.sheet.net.poles[3 * net.count()..]);
-            cut_2d(w, net, area.s, area.t);
-            let n = &self.memory.coefficients[at * self.slot..at * self.slot + self.count];
-            let found = rational_slope_extent(n, w, net, k, &mut memory);
-            let size = product_steps(2 * net.count()) * area.radius * area.radius;
-            (found, 8.0 * n_degree * extent(w).1 * weight * (area.error + size))
+    /// Whether a plane that fits the net in the scratch memory separates it from the query.
+    fn is_under_a_tilted_plane(&mut self) -> bool {
+        let degree = self.sheet.net.degree;
+        let (count, position) = (degree.count(), self.sheet.position);
+        let corners = [0, degree.t, degree.s * (degree.t + 1), count - 1];
+        let height = tilted_height(&self.memory.net[..4 * count], count, corners, self.proof);
+        let beyond_ties = height > least_height(self.proof.reach(), position);
+        let hit = if self.proof.tying {
+            beyond_ties
         } else {
-            (slope_extent(self.n(at), self.degree, k, &mut memory), 2.0 * n_degree * area.error)
+            height > least_height(self.proof.target, position)
         };
-        self.memory.turning = memory;
-        found
+        self.tilts = (self.tilts.0 + 1, self.tilts.1 + u64::from(hit));
+        if hit && !beyond_ties {
+            self.proof.loosen(self.proof.target);
+        }
+        hit
     }
 
     /// Rebuilds the coefficients of slot `at` from the poles; true when a plane already separates the query.
@@ -563,6 +495,17 @@ impl Walk<'_, '_, '_> {
             && plane_separates(net, count, self.proof, self.sheet.position)
         {
             return true;
+        }
+        if self.hard() && self.proof.best.is_finite() && self.is_under_a_tilted_plane() {
+            return true;
+        }
+        let net = &mut self.memory.net[..4 * count];
+        if self.proof.tying {
+            let near = nearness(net, count, self.proof);
+            area.small = near.small;
+            if near.around_foot {
+                return true;
+            }
         }
         square(net, degree, &mut self.memory.coefficients[at * self.slot..(at + 1) * self.slot]);
         self.set_error(area, at, radius, 3 * count);

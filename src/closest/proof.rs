@@ -2,11 +2,12 @@
 
 use crate::bounds::{HALF_ULP, Vector, dot, norm, scaled, sub};
 
-/// Feet remembered for ties; more of them say no more.
-const RIVALS: usize = 6;
+/// Places remembered for ties; more of them say no more.
+const RIVALS: usize = 8;
 
-/// Boxes searched for ties; a query on a continuum would have them all.
-const RIVAL_SEARCHES: usize = 8;
+/// Share of the budget that the search for ties may take, and iterations from places met in it.
+const TIE_SHARE: u64 = 16;
+const TIE_STARTS: usize = 16;
 
 /// Where the best foot lies: a piece and its local parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +17,20 @@ pub struct Site {
     /// Local parameters, each in [0, 1].
     pub at: [f64; 2],
 }
+
+/// A place that may hold another foot as near as the best.
+#[derive(Clone, Copy, Debug)]
+pub struct Rival {
+    /// Where.
+    pub site: Site,
+    /// Vector from the query.
+    pub d: Vector,
+    /// Whether it has been looked at.
+    pub seen: bool,
+}
+
+const NOWHERE: Rival =
+    Rival { site: Site { piece: 0, at: [0.0; 2] }, d: [f64::INFINITY; 3], seen: false };
 
 /// The certificate under construction. Lengths are in the index's coordinates.
 ///
@@ -30,11 +45,20 @@ pub struct Proof<'t> {
     pub site: Option<Site>,
     /// Unit vector from the query to the best foot.
     pub direction: Vector,
+    /// Whether the iteration to the best foot ended at the side of a box, or at its step limit: it is to be continued.
+    pub is_cut_off: bool,
     /// Local parameter direction in which the best foot is stationary to second order, if there is one.
     pub flat: Option<[f64; 2]>,
-    rivals: [Vector; RIVALS],
+    rivals: [Rival; RIVALS],
     rival_count: usize,
-    rival_searches: usize,
+    /// Whether a place found no room among the rivals.
+    pub crowded: bool,
+    /// Whether the walk is one for ties: everything is at least the target away, and boxes are closed when they hold no
+    /// foot within the window but the best.
+    pub tying: bool,
+    tie_starts: usize,
+    /// Least distance in what was closed for the target but not for ties, since the caller set it to infinity.
+    pub loose: f64,
     /// What must be proven everywhere: `best - gap`, at least zero.
     pub target: f64,
     /// An upper bound of the target's square.
@@ -66,10 +90,14 @@ impl<'t> Proof<'t> {
             best: f64::INFINITY,
             site: None,
             direction: [0.0; 3],
+            is_cut_off: false,
             flat: None,
-            rivals: [[0.0; 3]; RIVALS],
+            rivals: [NOWHERE; RIVALS],
             rival_count: 0,
-            rival_searches: 0,
+            crowded: false,
+            tying: false,
+            tie_starts: TIE_STARTS,
+            loose: f64::INFINITY,
             target: f64::INFINITY,
             target_squared: f64::INFINITY,
             lower: f64::INFINITY,
@@ -82,44 +110,127 @@ impl<'t> Proof<'t> {
         }
     }
 
-    /// Takes the point at `site`, `d` away from the query, if it is nearer than the best; `flat` tells the direction in
+    /// Takes the point at `site`, `d` away from the query, if it is nearer than the best (a walk for ties keeps the best
+    /// as it is); `flat` tells the direction in
     /// which the distance is stationary to second order there.
     pub fn offer(&mut self, site: Site, d: Vector, flat: impl FnOnce() -> Option<[f64; 2]>) {
         let distance = norm(d);
-        if distance.is_nan() || distance >= self.best {
+        if distance.is_nan() || distance >= self.best || self.tying {
             return;
         }
-        let old = scaled(self.direction, self.best);
+        let old = self.site.map(|site| (site, scaled(self.direction, self.best)));
         self.best = distance;
         self.direction = scaled(d, 1.0 / distance);
-        if self.site.is_some() {
-            self.rival(old);
+        if let Some((site, d)) = old {
+            self.rival(site, d);
         }
         self.flat = flat();
+        self.is_cut_off = false;
         self.site = Some(site);
         self.target = (distance - self.gap).max(0.0);
         self.target_squared = self.target * self.target * (1.0 + 8.0 * HALF_ULP);
     }
 
-    /// Remembers a foot that may tie with the best one; the best itself, met again, is none.
-    pub fn rival(&mut self, d: Vector) {
-        let near = norm(d) <= self.best + self.window();
-        if near && self.rival_count < RIVALS && self.is_elsewhere(d) {
-            self.rivals[self.rival_count] = d;
-            self.rival_count += 1;
+    /// Notes of the place just offered that the iteration did not end of itself there.
+    pub fn cut_off(&mut self, site: Site) {
+        self.is_cut_off |= self.site == Some(site);
+    }
+
+    /// Remembers a place that may be a foot and tie with the best one; the best itself, met again, is none.
+    pub fn rival(&mut self, site: Site, d: Vector) {
+        if !self.is_rival(d) {
+            return;
+        }
+        let new = Rival { site, d, seen: false };
+        let known = (0..self.rival_count).find(|&k| !self.is_apart(d, self.rivals[k].d));
+        match known {
+            Some(k) if norm(d) < norm(self.rivals[k].d) - 0.0625 * self.window() => {
+                self.rivals[k] = new;
+            }
+            Some(_) => {}
+            None if self.rival_count < RIVALS => {
+                self.rivals[self.rival_count] = new;
+                self.rival_count += 1;
+            }
+            None => match (0..RIVALS).find(|&k| !self.is_rival(self.rivals[k].d)) {
+                Some(k) => self.rivals[k] = new,
+                None => self.crowded = true,
+            },
         }
     }
 
-    /// Whether it is worth looking for a foot in a box that is closed but for ties. Counts the calls.
-    pub fn seeks_rivals(&mut self) -> bool {
-        self.rival_searches += 1;
-        self.rival_count < RIVALS && self.rival_searches <= RIVAL_SEARCHES
+    /// Whether any place is remembered.
+    pub fn has_rivals(&self) -> bool {
+        self.rival_count > 0
+    }
+
+    /// The next place that has not been looked at.
+    pub fn next_rival(&mut self) -> Option<Rival> {
+        let next = self.rivals[..self.rival_count].iter_mut().find(|rival| !rival.seen)?;
+        next.seen = true;
+        Some(*next)
+    }
+
+    /// Whether a place lies as near as the best foot, and elsewhere.
+    pub fn is_rival(&self, d: Vector) -> bool {
+        norm(d) <= self.reach() && self.is_apart(d, scaled(self.direction, self.best))
+    }
+
+    /// Notes that what was closed, at least `bound` away, may hold a foot that ties.
+    pub fn loosen(&mut self, bound: f64) {
+        self.loose = self.loose.min(bound);
+    }
+
+    /// Whether a walk for ties stops for a new rival: the caller looks at it first.
+    pub fn has_news(&self) -> bool {
+        self.tying && self.rivals[..self.rival_count].iter().any(|rival| !rival.seen)
+    }
+
+    /// Whether it is worth iterating from a place in a box that is not closed.
+    pub fn attracts(&mut self, d: Vector) -> bool {
+        if !self.tying {
+            return norm(d) < self.target;
+        }
+        let known = &self.rivals[..self.rival_count];
+        let new = self.is_rival(d) && known.iter().all(|rival| self.is_apart(d, rival.d));
+        if new && self.tie_starts > 0 {
+            self.tie_starts -= 1;
+            return true;
+        }
+        false
+    }
+
+    /// Starts the search for ties; it may take a share of the budget.
+    pub fn seek_ties(&mut self) {
+        self.tying = true;
+        self.spent = 0;
+        self.budget = (self.budget / TIE_SHARE).max(1);
+    }
+
+    /// Greatest distance that is the same as the least one, rounding apart, in a continuum.
+    pub fn level(&self) -> f64 {
+        self.best + 0.015625 * self.window()
+    }
+
+    /// Greatest distance that ties.
+    pub fn reach(&self) -> f64 {
+        self.best + self.window()
     }
 
     /// Square of the greatest distance that ties.
     pub fn tie_squared(&self) -> f64 {
-        let reach = self.best + self.window();
-        reach * reach
+        self.reach() * self.reach()
+    }
+
+    /// Square of the distance up to which nothing may be left in a box that is closed.
+    pub fn level_squared(&self) -> f64 {
+        if self.tying { self.tie_squared() } else { self.target_squared }
+    }
+
+    /// The squared distances that feet may have which count, when their box is at least `sqrt(bound)` away.
+    pub fn counted(&self, bound: f64) -> [f64; 2] {
+        let least = if self.tying { bound.max(self.target * self.target) } else { bound };
+        [least.max(0.0), self.tie_squared()]
     }
 
     /// Forgets what was given up, for another walk with the same best foot and half the budget.
@@ -134,17 +245,17 @@ impl<'t> Proof<'t> {
         2.0 * self.gap
     }
 
-    /// Whether a remembered foot lies elsewhere, and as near as the best.
-    pub fn is_tied(&self) -> bool {
-        let near = |d: Vector| norm(d) <= self.best + self.window();
-        self.rivals[..self.rival_count].iter().any(|&d| near(d) && self.is_elsewhere(d))
+    /// Square of the distance from which on two places count as different feet.
+    ///
+    /// Points around one foot are within the window up to `sqrt(2 window best / (1 - best k))` from it; the planes that
+    /// close boxes leave `sqrt(3 window best)`. So places are told apart from several times that on.
+    pub fn apart_squared(&self) -> f64 {
+        64.0 * self.window() * self.reach()
     }
 
-    /// Points around one foot are within the window up to `sqrt(2 window best / (1 - best k))` from it, so a foot
-    /// counts as another from several times that on.
-    fn is_elsewhere(&self, d: Vector) -> bool {
-        let move_ = sub(d, scaled(self.direction, self.best));
-        dot(move_, move_) > 64.0 * self.window() * (self.best + self.window())
+    fn is_apart(&self, a: Vector, b: Vector) -> bool {
+        let move_ = sub(a, b);
+        dot(move_, move_) > self.apart_squared()
     }
 
     /// Whether nothing is left to prove: every shape is at least zero away.
@@ -154,7 +265,10 @@ impl<'t> Proof<'t> {
 
     /// Gives up a part of the shape whose distance is at least `bound`.
     pub fn give_up(&mut self, bound: f64) {
-        self.lower = self.lower.min(bound);
+        self.loosen(bound);
+        if !self.tying {
+            self.lower = self.lower.min(bound);
+        }
     }
 
     /// Counts one box; false when the budget is gone.
@@ -167,5 +281,13 @@ impl<'t> Proof<'t> {
     /// The bound proven by a walk that ended.
     pub fn proven(&self) -> f64 {
         (self.target.min(self.lower) - self.spread).max(0.0)
+    }
+}
+
+/// Notes piece `k` when its search closed something for the target only.
+pub fn note_loose(k: usize, loose: &mut Vec<(f64, usize)>, proof: &mut Proof) {
+    if proof.loose < f64::INFINITY {
+        loose.push((proof.loose, k));
+        proof.loose = f64::INFINITY;
     }
 }

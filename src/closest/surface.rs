@@ -1,11 +1,13 @@
 //! Nearest point of a surface.
 
+mod ties;
+
 use super::local::{LOCAL_FLAGS, WholeSurface, surface_start};
 use super::patch::{PatchMemory, Sheet, search_patch};
-use super::proof::{Proof, Site, Watch};
+use super::proof::{Proof, Site, Watch, note_loose};
 use super::{
-    CONTINUUM_STEPS, FootPoint, MOST_GRAIN, QueryOptions, Scope, Workspace, certify,
-    default_budget, distance, far_foot, flag, is_bad, mark_inversion, rounding_floor, tree_limit,
+    FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, distance, far_foot, flag,
+    grained, is_bad, is_coarse, mark_inversion, rounding_floor, search_floor, tree_limit,
     tree_slack, ulp,
 };
 use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, sub};
@@ -91,6 +93,22 @@ impl IndexedSurface {
             .map_or([u0, u1, v0, v1], |d| [d[0].max(u0), d[1].min(u1), d[2].max(v0), d[3].min(v1)])
     }
 
+    /// The gap that rounding leaves to a search.
+    fn floor(index: &SurfaceIndex, query: Vector) -> f64 {
+        search_floor(
+            &index.frame,
+            query,
+            position_steps(index.degree.s + index.degree.t),
+            index.rational,
+        )
+    }
+
+    /// The shape as an iteration across pieces sees it.
+    fn whole(&self, index: &SurfaceIndex, query: Vector, floor: f64) -> WholeSurface<'_> {
+        let coarse = is_coarse(&index.frame, query, floor);
+        WholeSurface { surface: self.surface(), query, scale: index.frame.scale, coarse }
+    }
+
     fn local(
         &self,
         index: &SurfaceIndex,
@@ -103,7 +121,7 @@ impl IndexedSurface {
         let start = hint.unwrap_or_else(|| {
             surface_start(index, index.frame.enter(query), &mut workspace.start)
         });
-        let surface = WholeSurface { surface: self.surface(), query };
+        let surface = self.whole(index, query, Self::floor(index, query));
         let (at, _, taken) =
             foot_on_surface(&surface, start, self.range(options), options.method, trace);
         let mut foot = self.foot_at(index, query, at, self.range(options));
@@ -124,12 +142,12 @@ impl IndexedSurface {
         let traced = trace.is_some();
         let q = index.frame.enter(query);
         let steps = position_steps(index.degree.s + index.degree.t);
-        let worst = position_error(steps, index.rational, 2.0, norm(q) + 2.0, norm(q));
-        let allowed =
-            options.accuracy(&index.frame).max(rounding_floor(&index.frame, query, worst));
+        let floor = Self::floor(index, query);
+        let gap = options.accuracy(&index.frame).max(floor);
+        let allowed = gap.max(floor + rounding_floor(&index.frame, query, 0.0));
         let coefficients = index.degree.times(index.degree).count();
         let budget = if options.budget > 0 { options.budget } else { default_budget(coefficients) };
-        let whole = WholeSurface { surface: self.surface(), query };
+        let whole = self.whole(index, query, floor);
         let range = self.range(options);
         let search = SurfaceSearch { index, whole, query: q, range, options, steps };
         let mut tell = |step: u32, site: Site, d: f64| {
@@ -139,7 +157,7 @@ impl IndexedSurface {
             }
         };
         let watch: Option<Watch> = if traced { Some(&mut tell) } else { None };
-        let mut proof = Proof::new(0.5 * allowed * index.frame.scale, budget, watch);
+        let mut proof = Proof::new(0.5 * gap * index.frame.scale, budget, watch);
         if let Some(at) = hint {
             search.start_at(at, &mut proof);
         }
@@ -161,6 +179,9 @@ impl IndexedSurface {
         let flat = proof.flat.or_else(|| search.flat_at_border(site));
         if flat.is_some_and(|v| search.is_continuum(site, v, &proof)) {
             foot.flags |= flag::CONTINUUM | flag::TIE;
+        } else {
+            foot.flags |= search.ties(workspace, &mut proof);
+            foot.iterations = proof.evaluations;
         }
         if hint.is_some() {
             foot.flags |= flag::HINT_USED;
@@ -197,7 +218,7 @@ impl IndexedSurface {
             }
         }
         *foot = best;
-        certify(foot, proof, &index.frame, allowed + grain.min(MOST_GRAIN * index.frame.diagonal));
+        certify(foot, proof, &index.frame, grained(allowed, grain, &index.frame));
     }
 
     /// The record at a parameter pair, with the flags of the place.
@@ -339,53 +360,6 @@ impl SurfaceSearch<'_> {
         ]
     }
 
-    /// The flat direction of a foot on a side of its patch, where it was found in one parameter only; at a collapsed
-    /// point, where one derivative vanishes, that of the other.
-    fn flat_at_border(&self, site: Site) -> Option<[f64; 2]> {
-        let [s, t] = site.at;
-        let patch = &self.index.patches[site.piece];
-        if s != 0.0 && s != 1.0 && t != 0.0 && t != 1.0 {
-            return None;
-        }
-        let jet = self.index.net(site.piece).jet(s, t, sub(self.query, patch.center));
-        let on = [s == 0.0, s == 1.0, t == 0.0, t == 1.0];
-        match (0..4).find(|&k| on[k] && patch.collapsed[k]) {
-            Some(k) if jet.along(k / 2).is_flat() => {
-                Some(if k < 2 { [1.0, 0.0] } else { [0.0, 1.0] })
-            }
-            Some(_) => None,
-            None => jet.flat_direction(),
-        }
-    }
-
-    /// Whether there is a foot within the window wherever the iteration starts along the flat direction `v`.
-    fn is_continuum(&self, site: Site, v: [f64; 2], proof: &Proof) -> bool {
-        let Some(range) = self.local_range(site.piece) else { return false };
-        let patch = &self.index.patches[site.piece];
-        let view = (self.index.net(site.piece), sub(self.query, patch.center));
-        let home = view.0.jet(site.at[0], site.at[1], view.1).d;
-        let stays = |step: f64| {
-            let start = [site.at[0] + step * v[0], site.at[1] + step * v[1]];
-            let inside = (range[0]..=range[1]).contains(&start[0])
-                && (range[2]..=range[3]).contains(&start[1]);
-            if !inside {
-                return false;
-            }
-            let reach = proof.best + proof.window();
-            let there = view.0.jet(start[0], start[1], view.1).d;
-            if norm(there) <= reach {
-                return true;
-            }
-            // A continuum need not follow the straight line in the parameters.
-            let (_, jet, _) = foot_on_surface(&view, start, range, self.options.method, None);
-            norm(jet.d) <= reach && norm(sub(jet.d, home)) > 0.5 * norm(sub(there, home))
-        };
-        proof.best > proof.window()
-            && [-1.0, 1.0]
-                .into_iter()
-                .any(|side| CONTINUUM_STEPS.into_iter().all(|step| stays(side * step)))
-    }
-
     fn start_at(&self, at: [f64; 2], proof: &mut Proof) {
         let at =
             [at[0].clamp(self.range[0], self.range[1]), at[1].clamp(self.range[2], self.range[3])];
@@ -490,9 +464,14 @@ impl SurfaceSearch<'_> {
         }
     }
 
-    /// Goes on in the neighbours when the best foot lies on the line between two patches: the search leaves out what
+    /// Goes on where an iteration was cut off, and in the neighbours when the best foot lies on the line between two patches: the search leaves out what
     /// is nearer by less than the accuracy, the foot should not.
     fn polish(&self, proof: &mut Proof) {
+        if let (Some(site), true) = (proof.site, proof.is_cut_off) {
+            if let Some(range) = self.local_range(site.piece) {
+                self.iterate_from(site.piece, site.at, range, Method::Auto, proof);
+            }
+        }
         let Some(site) = proof.site else { return };
         let (columns, rows) = (self.index.columns, self.index.patches.len() / self.index.columns);
         let place = [site.piece / columns, site.piece % columns];
@@ -539,6 +518,7 @@ impl SurfaceSearch<'_> {
         let slack = tree_slack(self.query);
         self.index.tree.start(&mut workspace.queue);
         workspace.deferred.clear();
+        workspace.loose.clear();
         while let Some(next) = workspace.queue.pop() {
             let limit = tree_limit(proof, slack);
             if proof.is_trivial() || next.key > limit {
@@ -551,7 +531,9 @@ impl SurfaceSearch<'_> {
             match next.piece() {
                 None => self.index.tree.open(next, self.query, limit, &mut workspace.queue),
                 Some(k) => {
-                    if !self.search(k, PATIENCE, &mut workspace.patch, proof) {
+                    if self.search(k, PATIENCE, &mut workspace.patch, proof) {
+                        note_loose(k, &mut workspace.loose, proof);
+                    } else {
                         workspace.deferred.push((next.key, k));
                     }
                 }
@@ -562,6 +544,7 @@ impl SurfaceSearch<'_> {
                 proof.give_up(key.sqrt() * (1.0 - 8.0 * HALF_ULP) - slack);
             } else if !proof.is_trivial() {
                 self.search(k, u64::MAX, &mut workspace.patch, proof);
+                note_loose(k, &mut workspace.loose, proof);
             }
         }
     }

@@ -3,7 +3,7 @@
 use super::gradient::View;
 use super::nature::{Signs, end_of, from_samples};
 use super::{
-    Candidate, ExtremaOptions, LONGEST_POLISH, POLISH_STEPS, Source, Taken, flat_limit,
+    BESIDE, Candidate, ExtremaOptions, LONGEST_POLISH, POLISH_STEPS, Source, Taken, flat_limit,
     is_reachable, kind,
 };
 use crate::bezier::Bidegree;
@@ -24,9 +24,7 @@ const ON_END: f64 = 1e-13;
 
 /// Flat intervals whose distances differ by more than this many accuracies are a chain, not a continuum.
 const CHAIN: f64 = 8.0;
-
-/// Places at which a flat interval is looked at for that.
-const CHAIN_SAMPLES: usize = 16;
+const CHAIN_SAMPLES: usize = 8;
 
 /// How far around a flat member the distance is compared with its own, as a share of the range.
 const AROUND: f64 = 0.02;
@@ -237,10 +235,7 @@ impl<'a> Search<'a> {
             let at = [u, 0.0];
             let member = self.flat_member(area, u, is_chain);
             let candidate = Candidate { at, area, source: Source::Flat };
-            // A small interval on a seam is seen from both ends.
-            let known =
-                |t: &Taken| t.touches(&candidate, &member.foot, self.accuracy, &self.turns());
-            if !taken.iter().any(known) {
+            if !self.goes_on_across(&taken, &area) {
                 taken.push(Taken::new(&member, candidate));
                 members.push(member);
             }
@@ -260,19 +255,25 @@ impl<'a> Search<'a> {
         members
     }
 
-    /// Steps in the parameters after which the curve is the same.
-    fn turns(&self) -> [[f64; 2]; 3] {
-        let turn = if self.is_turning() { self.range[1] - self.range[0] } else { 0.0 };
-        [[-turn, 0.0], [0.0; 2], [turn, 0.0]]
-    }
-
     fn is_taken(&self, taken: &[Taken], candidate: &Candidate, foot: &FootPoint) -> bool {
         let sizes = (self.index.frame.diagonal, self.accuracy);
-        let turns = self.turns();
+        let turn = if self.is_turning() { self.range[1] - self.range[0] } else { 0.0 };
         let holds = |area: &[f64; 4], at: [f64; 2]| {
-            turns.iter().any(|turn| (area[0]..=area[1]).contains(&(at[0] + turn[0])))
+            [-turn, 0.0, turn].iter().any(|turn| (area[0]..=area[1]).contains(&(at[0] + turn)))
         };
-        taken.iter().any(|known| known.is_same(candidate, foot, sizes, holds))
+        let step = BESIDE * (self.range[1] - self.range[0]);
+        let beside = |at: [f64; 2]| holds(&[at[0] - step, at[0] + step, 0.0, 0.0], candidate.at);
+        taken.iter().any(|known| known.is_same(candidate, foot, sizes, holds, beside))
+    }
+
+    /// Whether an interval goes on in a known flat one on the other side of the seam; then it is part of that, unless it goes
+    /// all the way round.
+    fn goes_on_across(&self, taken: &[Taken], area: &[f64; 4]) -> bool {
+        let [first, last] = self.range;
+        let begins = |known: &Taken| {
+            known.candidate.source == Source::Flat && known.candidate.area[0] == first
+        };
+        self.is_turning() && area[0] > first && area[1] == last && taken.iter().any(begins)
     }
 
     fn foot(&self, u: f64) -> FootPoint {
@@ -308,7 +309,8 @@ impl<'a> Search<'a> {
         let u = candidate.at[0];
         let mut signs = self.signs(u, false);
         if signs.passes() {
-            if candidate.source == Source::Border {
+            // A zero beyond the end of its piece, moved onto it: the neighbour has it, or nobody.
+            if matches!(candidate.source, Source::Border | Source::OnEnd) {
                 return None;
             }
             signs = self.signs(u, true);
@@ -327,14 +329,13 @@ impl<'a> Search<'a> {
             c.source == Source::Flat && c.area[0] <= area[1] && area[0] <= c.area[1]
         };
         let (mut least, mut most, mut u) = (f64::INFINITY, 0.0_f64, area[0]);
-        // Flat intervals that touch have become one in the zeros already: places along it tell a chain too.
+        let middles = self.candidates.iter().filter(inside).map(|c| c.at[0]);
         let share = |k: usize| area[0] + (area[1] - area[0]) * k as f64 / CHAIN_SAMPLES as f64;
-        let along = (1..CHAIN_SAMPLES).map(share);
-        for x in self.candidates.iter().filter(inside).map(|c| c.at[0]).chain(along) {
-            let distance = self.distance(x);
+        for place in middles.chain((0..=CHAIN_SAMPLES).map(share)) {
+            let distance = self.distance(place);
             most = most.max(distance);
             if distance < least {
-                (least, u) = (distance, x);
+                (least, u) = (distance, place);
             }
         }
         let is_chain = most - least > CHAIN * self.accuracy;

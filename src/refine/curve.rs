@@ -10,6 +10,10 @@ pub trait CurveJets {
     fn jet(&self, s: f64) -> Jet1;
     /// The parameter as the caller knows it, for traces.
     fn global(&self, s: f64) -> [f64; 2];
+    /// What the caller's lengths are multiplied by.
+    fn scale(&self) -> f64 {
+        1.0
+    }
 }
 
 impl CurveJets for (BezierSegment<'_>, Vector) {
@@ -82,7 +86,7 @@ fn near(a: &Jet1, b: &Jet1) -> bool {
 fn tell(trace: &mut Option<Trace>, curve: &impl CurveJets, step: u32, s: f64, jet: &Jet1) {
     if let Some(trace) = trace {
         let [u, v] = curve.global(s);
-        trace(step, u, v, jet.squared().sqrt());
+        trace(step, u, v, jet.squared().sqrt() / curve.scale());
     }
 }
 

@@ -10,6 +10,10 @@ pub trait SurfaceJets {
     fn jet(&self, s: f64, t: f64) -> Jet2;
     /// The parameters as the caller knows them, for traces.
     fn global(&self, s: f64, t: f64) -> [f64; 2];
+    /// What the caller's lengths are multiplied by.
+    fn scale(&self) -> f64 {
+        1.0
+    }
 }
 
 impl SurfaceJets for (BezierPatch<'_>, Vector) {
@@ -24,6 +28,9 @@ impl SurfaceJets for (BezierPatch<'_>, Vector) {
 
 /// Dampings that are tried one after the other when the second-order step fails.
 const DAMPING: [f64; 6] = [0.0, 1e-3, 0.1, 1.0, 30.0, 1e3];
+
+/// Share of the squared distance that a step must promise to be tried at less than a tenth of its length.
+const LEAST_PROMISE: f64 = 1e-11;
 
 /// A parameter pair, its box and which of the two is held at a border.
 struct State {
@@ -101,6 +108,9 @@ pub fn foot_on_surface(
                 }
             }
         }
+        if found.is_none() && method == Method::Auto {
+            found = creep(surface, &state, &jet, step, &accept, &mut taken);
+        }
         let Some((next, candidate)) = found else { break };
         (state.at, jet) = (next, candidate);
         tell(&mut trace, surface, count, state.at, &jet);
@@ -110,6 +120,25 @@ pub fn foot_on_surface(
         }
     }
     (state.at, jet, taken)
+}
+
+/// A much shorter step, where the gradient promises something: models fail where derivatives nearly vanish.
+fn creep(
+    surface: &impl SurfaceJets,
+    state: &State,
+    jet: &Jet2,
+    step: [f64; 2],
+    accept: &impl Fn(&Jet2) -> bool,
+    taken: &mut u32,
+) -> Option<([f64; 2], Jet2)> {
+    let (g, to) = (jet.gradient(), state.moved(step, 1.0));
+    let way = [to[0] - state.at[0], to[1] - state.at[1]];
+    let promise = -(g[0] * way[0] + g[1] * way[1]);
+    if promise > LEAST_PROMISE * jet.squared() {
+        advance(surface, state, way.map(|x| 0.125 * x), 1e-4, accept, taken)
+    } else {
+        None
+    }
 }
 
 /// The first of the step, its half, its quarter ... down to `least` that is accepted.
@@ -158,7 +187,7 @@ fn tell(
 ) {
     if let Some(trace) = trace {
         let [u, v] = surface.global(at[0], at[1]);
-        trace(step, u, v, jet.squared().sqrt());
+        trace(step, u, v, jet.squared().sqrt() / surface.scale());
     }
 }
 

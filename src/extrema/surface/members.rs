@@ -3,8 +3,8 @@
 use super::{Candidate, Search, Sheet, Signs, Source};
 use crate::bounds::{norm, sub};
 use crate::closest::{FootPoint, flag};
-use crate::extrema::Taken;
 use crate::extrema::nature::from_samples;
+use crate::extrema::{BESIDE, Taken};
 use crate::extrema::{flat_limit, kind};
 use crate::refine::{Method, foot_on_surface};
 use crate::set::{Kind, Member, Nature, is_wide, joined, touch};
@@ -29,10 +29,7 @@ impl Search<'_> {
             let (at, is_chain) = self.flat_place(area);
             let member = self.flat_member(area, at, is_chain);
             let candidate = Candidate { at, area, source: Source::Flat };
-            // A small area on a seam is seen from both ends.
-            let known =
-                |t: &Taken| t.touches(&candidate, &member.foot, self.accuracy, &self.turns());
-            if !taken.iter().any(known) {
+            if !self.goes_on_across(&taken, &area) {
                 taken.push(Taken::new(&member, candidate));
                 members.push(member);
             }
@@ -55,24 +52,43 @@ impl Search<'_> {
     fn is_taken(&self, taken: &[Taken], candidate: &Candidate, foot: &FootPoint) -> bool {
         let sizes = (self.index.frame.diagonal, self.accuracy);
         let holds = |area: &[f64; 4], at: [f64; 2]| self.holds(area, at);
-        taken.iter().any(|known| known.is_same(candidate, foot, sizes, holds))
+        let r = self.range;
+        let beside = |at: [f64; 2]| {
+            let [du, dv] = [BESIDE * (r[1] - r[0]), BESIDE * (r[3] - r[2])];
+            self.holds(&[at[0] - du, at[0] + du, at[1] - dv, at[1] + dv], candidate.at)
+        };
+        taken.iter().any(|known| known.is_same(candidate, foot, sizes, holds, beside))
+    }
+
+    /// Whether an area goes on in a known flat one on the other side of a seam; then it is part of that, unless it goes all
+    /// the way round.
+    fn goes_on_across(&self, taken: &[Taken], area: &[f64; 4]) -> bool {
+        let (r, domain) = (self.range, self.shape.surface().domain());
+        (0..2).any(|k| {
+            let ends = [r[2 * k], r[2 * k + 1]];
+            let is_seam = self.index.closed[k] && ends == [domain[2 * k], domain[2 * k + 1]];
+            is_seam
+                && area[2 * k] > ends[0]
+                && area[2 * k + 1] == ends[1]
+                && taken.iter().any(|known| {
+                    let mut moved = known.candidate.area;
+                    moved[2 * k] += ends[1] - ends[0];
+                    moved[2 * k + 1] += ends[1] - ends[0];
+                    touch(&moved, area)
+                })
+        })
     }
 
     /// Whether a place lies in an area, across the seam too.
     fn holds(&self, area: &[f64; 4], at: [f64; 2]) -> bool {
-        let inside = |k: usize, x: f64| (area[2 * k]..=area[2 * k + 1]).contains(&x);
-        self.turns().iter().any(|turn| (0..2).all(|k| inside(k, at[k] + turn[k])))
-    }
-
-    /// Steps in the parameters after which the surface is the same.
-    fn turns(&self) -> [[f64; 2]; 9] {
-        let (domain, r) = (self.shape.surface().domain(), self.range);
-        let period = |k: usize| {
+        let domain = self.shape.surface().domain();
+        let r = self.range;
+        (0..2).all(|k| {
+            let (low, high) = (area[2 * k], area[2 * k + 1]);
             let whole = r[2 * k..2 * k + 2] == domain[2 * k..2 * k + 2];
-            if self.index.closed[k] && whole { r[2 * k + 1] - r[2 * k] } else { 0.0 }
-        };
-        std::array::from_fn(|i| [(i / 3) as f64 - 1.0, (i % 3) as f64 - 1.0])
-            .map(|[a, b]| [a * period(0), b * period(1)])
+            let period = if self.index.closed[k] && whole { r[2 * k + 1] - r[2 * k] } else { 0.0 };
+            [-period, 0.0, period].iter().any(|turn| (low..=high).contains(&(at[k] + turn)))
+        })
     }
 
     fn point_member(&self, candidate: &Candidate, foot: FootPoint) -> Option<Member> {
@@ -84,7 +100,8 @@ impl Search<'_> {
         }
         let mut signs: Signs = self.signs(candidate.at);
         if signs.passes() {
-            if candidate.source == Source::Border {
+            // A zero beyond the end of its piece, moved onto it: the neighbour has it, or nobody.
+            if matches!(candidate.source, Source::Border | Source::OnEnd) {
                 return None;
             }
             signs = self.signs_along(candidate.at, signs.passing());
@@ -127,11 +144,7 @@ impl Search<'_> {
         if is_chain {
             foot.flags |= flag::NOT_PROVEN;
         }
-        // A foot that went to the other end of a seam takes its interval along.
-        let interval = |k: usize, x: f64| {
-            let (low, high) = (area[2 * k], area[2 * k + 1]);
-            if at[k] == x { [low.min(x), high.max(x)] } else { [x; 2] }
-        };
+        let interval = |k: usize, x: f64| [area[2 * k].min(x), area[2 * k + 1].max(x)];
         let (u, v) = (interval(0, foot.u), interval(1, foot.v));
         // Where a parameter does not move the point, the signs are rounding.
         let across = match flat {

@@ -1,0 +1,148 @@
+//! The sides of an area: a search along a border, and what a collapsed side says.
+
+use super::super::collapsed::{along, rational_slope_extent, slope_extent};
+use super::super::line::{Given, Line, search_line};
+use super::super::proof::Site;
+use super::{Area, Walk};
+use crate::bezier::{cut_2d, isocurve};
+use crate::bounds::extent;
+use crate::index::{product_steps, side};
+use crate::jet::{BezierSegment, Jet2};
+use crate::knots::MAX_DEGREE;
+
+impl Walk<'_, '_, '_> {
+    /// The collapsed points are candidates of their own.
+    pub(super) fn look_at_collapsed_sides(&mut self) {
+        let corner: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [0.0, 0.0], [0.0, 1.0]];
+        for k in 0..4 {
+            let inner = self.sheet.range[k] == [0.0, 1.0, 0.0, 1.0][k];
+            if self.sheet.patch.collapsed[k] && inner {
+                let at = [0, 1].map(|c| {
+                    corner[k][c].clamp(self.sheet.range[2 * c], self.sheet.range[2 * c + 1])
+                });
+                self.look_at(at);
+            }
+        }
+    }
+
+    fn look_at(&mut self, at: [f64; 2]) -> Jet2 {
+        let jet = self.sheet.net.jet(at[0], at[1], self.sheet.query);
+        self.proof.evaluations += 1;
+        let site = Site { piece: self.sheet.piece, at };
+        self.proof.offer(site, jet.d, || None);
+        self.proof.rival(site, jet.d);
+        jet
+    }
+
+    /// Goes on along side `k` of the area, if that can hold the nearest point at all.
+    pub(super) fn follow_side(&mut self, area: &Area, at: usize, k: usize) {
+        let ends = [area.s[0], area.s[1], area.t[0], area.t[1]];
+        let outer = ends[k] == self.sheet.range[k];
+        let collapsed = self.sheet.patch.collapsed[k] && ends[k] == [0.0, 1.0, 0.0, 1.0][k];
+        if !outer || !self.sheet.border[k] || collapsed {
+            return;
+        }
+        let along_s = k == side::T0 || k == side::T1;
+        let (range, first) = if along_s { (area.s, side::S0) } else { (area.t, side::T0) };
+        let border =
+            [0, 1].map(|e| self.sheet.border[first + e] && range[e] == self.sheet.range[first + e]);
+        let mut memory = std::mem::take(&mut self.memory.edge);
+        let p = self.edge_net(k, ends[k], &mut memory);
+        let components = if self.sheet.net.rational { 4 } else { 3 };
+        let (net, product) = memory.split_at_mut(4 * (MAX_DEGREE + 1));
+        let (n, c) = product.split_at_mut(2 * MAX_DEGREE + 1);
+        let (n, c) = (&mut n[..=2 * p], &mut c[..=2 * p]);
+        let rational = self.sheet.net.rational;
+        for i in 0..=2 * p {
+            let place = self.place_on_side(k, i);
+            n[i] = self.n(at)[place];
+            if rational {
+                c[i] = self.c(at)[place];
+            }
+        }
+        let (piece, fixed) = (self.sheet.piece, ends[k]);
+        let site = |x: f64| Site { piece, at: if along_s { [x, fixed] } else { [fixed, x] } };
+        let line = Line {
+            segment: BezierSegment { degree: p, rational, poles: &net[..components * (p + 1)] },
+            query: self.sheet.query,
+            position: self.sheet.position,
+            range,
+            border,
+            site: &site,
+            method: self.sheet.method,
+        };
+        let c = if rational { &c[..] } else { &[] };
+        let given = Given { n, c, error: area.error, radius: area.radius };
+        search_line(&line, Some(given), &mut self.memory.line, self.proof);
+        self.memory.edge = memory;
+    }
+
+    /// Index of product coefficient `i` along side `k`.
+    fn place_on_side(&self, k: usize, i: usize) -> usize {
+        let width = self.degree.t + 1;
+        match k {
+            side::S0 => i,
+            side::S1 => self.degree.s * width + i,
+            side::T0 => i * width,
+            _ => i * width + self.degree.t,
+        }
+    }
+
+    /// The poles of the isocurve on side `k` at parameter `x`, into `out`; returns its degree.
+    fn edge_net(&mut self, k: usize, x: f64, out: &mut [f64]) -> usize {
+        let degree = self.sheet.net.degree;
+        let (rows, columns) = (degree.s + 1, degree.t + 1);
+        let across_s = k == side::S0 || k == side::S1;
+        let size = if across_s { columns } else { rows };
+        for (component, edge) in
+            self.sheet.net.poles.chunks_exact(rows * columns).zip(out.chunks_exact_mut(size))
+        {
+            let work = &mut self.memory.net[..rows * columns];
+            work.copy_from_slice(component);
+            isocurve(work, degree, across_s, x, edge);
+        }
+        size - 1
+    }
+
+    /// At a collapsed side: whether the distance changes strictly along the side everywhere off it (see
+    /// `collapsed`). Then only the collapsed point or a border can be nearest.
+    pub(super) fn turning(&mut self, area: &Area, at: usize, weight: f64) -> bool {
+        let ends = [area.s[0], area.s[1], area.t[0], area.t[1]];
+        let touched =
+            (0..4).find(|&k| self.sheet.patch.collapsed[k] && ends[k] == [0.0, 1.0, 0.0, 1.0][k]);
+        let Some(k) = touched else { return false };
+        let ((low, high), allowance) = self.turning_extent(area, at, k, weight);
+        if low > allowance || high < -allowance {
+            self.follow_side(area, at, 2 * along(k) + usize::from(high < 0.0));
+            return true;
+        }
+        false
+    }
+
+    /// Extent of the slope along side `k` off that side, and its rounding.
+    fn turning_extent(
+        &mut self,
+        area: &Area,
+        at: usize,
+        k: usize,
+        weight: f64,
+    ) -> ((f64, f64), f64) {
+        let mut memory = std::mem::take(&mut self.memory.turning);
+        let n_degree = [self.degree.s, self.degree.t][along(k)] as f64;
+        let found = if self.sheet.net.rational {
+            let net = self.sheet.net.degree;
+            let w = &mut self.memory.weights;
+            w.clear();
+            w.extend_from_slice(&self.sheet.net.poles[3 * net.count()..]);
+            cut_2d(w, net, area.s, area.t);
+            let n = &self.memory.coefficients[at * self.slot..at * self.slot + self.count];
+            let found = rational_slope_extent(n, w, net, k, &mut memory);
+            let size = product_steps(2 * net.count()) * area.radius * area.radius;
+            (found, 8.0 * n_degree * extent(w).1 * weight * (area.error + size))
+        } else {
+            (slope_extent(self.n(at), self.degree, k, &mut memory), 2.0 * n_degree * area.error)
+        };
+        self.memory.turning = memory;
+        found
+    }
+}
