@@ -29,6 +29,7 @@ mod surface;
 use crate::bounds::{Vector, norm, sub};
 use crate::closest::FootPoint;
 use crate::set::{FootSet, Kind, Member, Nature};
+use nature::Signs;
 
 /// What is asked for. The default is every stationary point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -93,6 +94,9 @@ struct Candidate {
     /// u0, u1, v0, v1.
     area: [f64; 4],
     source: Source,
+    /// For a zero inside its piece: the signs there. Its parameters may be rounded to the end of the piece, where others
+    /// tell other signs.
+    own: Option<Signs>,
 }
 
 /// How a candidate was found.
@@ -100,13 +104,13 @@ struct Candidate {
 enum Source {
     /// The gradient vanishes.
     Inside,
-    /// The gradient vanishes at the end of a piece, perhaps only by the allowance for rounding: where the zero lies
-    /// beyond, the neighbour has it inside.
-    OnEnd,
     /// A collapsed edge.
     Collapsed,
     /// The derivative along a border or crease vanishes, or it is a corner.
     Border,
+    /// The gradient vanishes at the end of a piece, perhaps only by the allowance for rounding: where the zero lies
+    /// beyond, the neighbour has it inside.
+    OnEnd,
     /// The distance stays within the accuracy on the area.
     Flat,
 }

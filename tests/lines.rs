@@ -183,7 +183,7 @@ fn tangents_touch_once() {
     let shapes = [sphere(2.0), cylinder(1.0, 2.0), torus(3.0, 1.0)].map(Shape::Surface);
     let round = Shape::Curve(ellipse(2.0, 2.0));
     for k in 0..QUERIES / 10 {
-        let angle = r.between(0.0, 6.0);
+        let angle = r.between(0.0, std::f64::consts::TAU);
         let (s, c) = angle.sin_cos();
         let u = turn([c, s]);
         // Along the parallel: on the sphere's equator, the cylinder's middle, the torus' outer equator.

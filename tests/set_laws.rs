@@ -11,7 +11,7 @@ use footpoint::set::{FootSet, Kind, Member, Nature};
 use footpoint::surface::Surface;
 use sets::{Asked, Log, complaint, extrema, preimage, topology};
 use shapes::asked::{Shape, apart};
-use shapes::{FAMILIES, Random, Vector, dot, norm, sub};
+use shapes::{FAMILIES, Random, Vector, along, dot, norm, sub};
 
 /// Shapes per family and queries per shape.
 const ROUNDS: [u64; 2] = if cfg!(debug_assertions) { [8, 10] } else { [40, 25] };
@@ -206,26 +206,30 @@ fn scaling_by_powers_of_two_scales_the_set() {
     log.close("scaling", 0.0);
 }
 
-/// A turn about an axis with the cosine 0.6, and a shift.
-fn turned(p: Vector) -> Vector {
-    [0.6 * p[0] - 0.8 * p[1] + 0.3, 0.8 * p[0] + 0.6 * p[1] - 0.2, p[2] + 0.1]
+/// A turn about an axis with the cosine 0.6, and a shift in the size of the shape.
+fn turned(p: Vector, size: f64) -> Vector {
+    let turned = [0.6 * p[0] - 0.8 * p[1], 0.8 * p[0] + 0.6 * p[1], p[2]];
+    along(turned, [0.3, -0.2, 0.1], size)
 }
 
 #[test]
 fn a_rigid_motion_moves_the_set() {
     let mut log = Log::default();
     every(&mut log, |shape, query, _| {
+        let size = shape.diagonal();
         let other = match shape {
             Shape::Curve(curve) => {
                 let c = curve.curve();
-                let poles: Vec<Vector> = c.poles().iter().map(|p| turned(*p)).collect();
+                let poles: Vec<Vector> = c.poles().iter().map(|p| turned(*p, size)).collect();
                 let same = Curve::new(c.knots().values(), c.degree(), &poles, c.weights());
                 Shape::Curve(IndexedCurve::new(same.expect("a curve")))
             }
-            Shape::Surface(surface) => Shape::Surface(moved(surface.surface(), turned)),
+            Shape::Surface(surface) => {
+                Shape::Surface(moved(surface.surface(), |p| turned(p, size)))
+            }
         };
         let a = extrema(shape, query, &ExtremaOptions::default());
-        let b = extrema(&other, turned(query), &ExtremaOptions::default());
+        let b = extrema(&other, turned(query, size), &ExtremaOptions::default());
         agree(shape, query, &a, &b, 1.0)
     });
     log.close("rigid motion", 0.5);
@@ -374,17 +378,18 @@ fn minima_and_maxima_of_a_grid_are_members() {
     log.close("grid", 0.1);
 }
 
-/// Whether some short step improves on a place by more than rounding: the walk was stuck.
+/// Whether some step, anywhere or along a parameter line, improves on a place by more than rounding: the walk was stuck.
 fn is_stuck(shape: &Shape, query: Vector, at: [f64; 2], down: bool) -> bool {
     let [u0, u1, v0, v1] = shape.domain();
     let here = sub(shape.evaluate(at), query);
     let limit = 1e-12 * dot(here, here);
     let r = &mut Random(1);
-    (0..4_000).any(|_| {
-        let size = r.scale(-9.0, -2.0);
+    (0..4_000).any(|k| {
+        let size = r.scale(-9.0, -1.0);
         let moved =
             |x: f64, low: f64, high: f64, s: f64| (x + s * size * (high - low)).clamp(low, high);
         let [a, b, _] = r.vector();
+        let [a, b] = [[a, b], [a, 0.0], [0.0, b]][k % 3];
         let there = sub(shape.evaluate([moved(at[0], u0, u1, a), moved(at[1], v0, v1, b)]), query);
         let change = dot(there, there) - dot(here, here);
         if down { change < -limit } else { change > limit }

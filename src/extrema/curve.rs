@@ -217,7 +217,13 @@ impl<'a> Search<'a> {
         let grain = share * (span[1] - span[0]);
         let low = self.global(line, ends[0]).min(u - grain).max(self.range[0]);
         let high = self.global(line, ends[1]).max(u + grain).min(self.range[1]);
-        self.candidates.push(Candidate { at: [u, 0.0], area: [low, high, 0.0, 0.0], source });
+        let own = (source == Source::Inside).then(|| {
+            let mut own = Signs::default();
+            own.segment(&line.jet(s), 0.5, line.position);
+            own
+        });
+        let area = [low, high, 0.0, 0.0];
+        self.candidates.push(Candidate { at: [u, 0.0], area, source, own });
     }
 
     fn is_turning(&self) -> bool {
@@ -234,7 +240,7 @@ impl<'a> Search<'a> {
             let (u, is_chain) = self.flat_place(area);
             let at = [u, 0.0];
             let member = self.flat_member(area, u, is_chain);
-            let candidate = Candidate { at, area, source: Source::Flat };
+            let candidate = Candidate { at, area, source: Source::Flat, own: None };
             if !self.goes_on_across(&taken, &area) {
                 taken.push(Taken::new(&member, candidate));
                 members.push(member);
@@ -284,14 +290,12 @@ impl<'a> Search<'a> {
         norm(sub(self.shape.curve().evaluate(u), self.query))
     }
 
-    /// The signs that the segments around a place tell; where it is `stationary`, those of the second derivatives.
-    fn signs(&self, u: f64, stationary: bool) -> Signs {
+    /// The signs that the segments around a place tell.
+    fn signs(&self, u: f64) -> Signs {
         let mut signs = Signs::default();
         for (piece, s) in self.index.around(u, self.range) {
             let Some(line) = self.line(piece) else { continue };
-            let end = if stationary {
-                0.5
-            } else if end_of(s) != 0.0 {
+            let end = if end_of(s) != 0.0 {
                 s
             } else if u == self.range[0] {
                 0.0
@@ -307,13 +311,10 @@ impl<'a> Search<'a> {
 
     fn point_member(&self, candidate: &Candidate, foot: FootPoint) -> Option<Member> {
         let u = candidate.at[0];
-        let mut signs = self.signs(u, false);
-        if signs.passes() {
+        let signs = candidate.own.unwrap_or_else(|| self.signs(u));
+        if candidate.own.is_none() && signs.passes() {
             // A zero beyond the end of its piece, moved onto it: the neighbour has it, or nobody.
-            if matches!(candidate.source, Source::Border | Source::OnEnd) {
-                return None;
-            }
-            signs = self.signs(u, true);
+            return None;
         }
         let mut nature = signs.nature();
         if nature == Nature::Flat {

@@ -112,11 +112,6 @@ impl Signs {
         self.across.contains(&[true, true])
     }
 
-    /// The parameters across whose knot lines it falls on one side and rises on the other.
-    pub fn passing(&self) -> [bool; 2] {
-        self.across.map(|sides| sides == [true, true])
-    }
-
     /// The verdict on a continuum, along which nothing changes: what the signs across it say, if they say anything.
     pub fn nature_across(&self) -> Option<Nature> {
         match (self.up, self.down) {

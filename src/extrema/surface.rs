@@ -444,6 +444,11 @@ impl<'a> Search<'a> {
     }
 
     fn push(&mut self, sheet: &Sheet, at: [f64; 2], zero: &Zero<2>, source: Source) {
+        let own = (source == Source::Inside).then(|| {
+            let mut own = Signs::default();
+            own.patch(&sheet.jet(at), [0.5; 2], sheet.position);
+            own
+        });
         let area = self.area(sheet, zero.low, zero.high);
         let at = self.global(sheet, at);
         let patch = &self.index.patches[sheet.piece];
@@ -456,7 +461,7 @@ impl<'a> Search<'a> {
             area[2].min(at[1] - grain[1]).max(r[2]),
             area[3].max(at[1] + grain[1]).min(r[3]),
         ];
-        self.candidates.push(Candidate { at, area, source });
+        self.candidates.push(Candidate { at, area, source, own });
     }
 
     fn give_up(&mut self, sheet: &Sheet, low: [f64; 2], high: [f64; 2]) {
@@ -466,16 +471,10 @@ impl<'a> Search<'a> {
 
     /// The signs that the patches around a place tell.
     fn signs(&self, at: [f64; 2]) -> Signs {
-        self.signs_along(at, [false; 2])
-    }
-
-    /// The same; along the `stationary` parameters the second derivatives count, whatever is left of the first.
-    fn signs_along(&self, at: [f64; 2], stationary: [bool; 2]) -> Signs {
         let mut signs = Signs::default();
         for (piece, local) in self.index.around(at, self.range) {
             let Some(sheet) = self.sheet(piece) else { continue };
             let (local, ends) = self.ended(at, local);
-            let ends = [0, 1].map(|k| if stationary[k] { 0.5 } else { ends[k] });
             signs.patch(&sheet.jet(local), ends, sheet.position);
         }
         signs

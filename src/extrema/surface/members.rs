@@ -28,7 +28,7 @@ impl Search<'_> {
         for area in joined(areas(true).map(|c| c.area).collect()) {
             let (at, is_chain) = self.flat_place(area);
             let member = self.flat_member(area, at, is_chain);
-            let candidate = Candidate { at, area, source: Source::Flat };
+            let candidate = Candidate { at, area, source: Source::Flat, own: None };
             if !self.goes_on_across(&taken, &area) {
                 taken.push(Taken::new(&member, candidate));
                 members.push(member);
@@ -98,13 +98,10 @@ impl Search<'_> {
             let nature = self.collapsed_nature(candidate);
             return Some(Member { foot, u: [u0, u1], v: [v0, v1], kind, nature });
         }
-        let mut signs: Signs = self.signs(candidate.at);
-        if signs.passes() {
+        let signs: Signs = candidate.own.unwrap_or_else(|| self.signs(candidate.at));
+        if candidate.own.is_none() && signs.passes() {
             // A zero beyond the end of its piece, moved onto it: the neighbour has it, or nobody.
-            if matches!(candidate.source, Source::Border | Source::OnEnd) {
-                return None;
-            }
-            signs = self.signs_along(candidate.at, signs.passing());
+            return None;
         }
         let mut nature = signs.nature();
         if nature == Nature::Flat {
@@ -271,7 +268,7 @@ impl Search<'_> {
             at[other / 2] = self.range[other];
             let is_flat = low >= -error && high <= error;
             let source = if is_flat { Source::Flat } else { Source::Collapsed };
-            self.candidates.push(Candidate { at, area, source });
+            self.candidates.push(Candidate { at, area, source, own: None });
         }
     }
 
