@@ -13,6 +13,7 @@ use footpoint::closest::{FootPoint, QueryOptions, Scope, Workspace};
 use footpoint::curve::Curve;
 use footpoint::index::{IndexedCurve, IndexedSurface};
 use footpoint::normal::{Normals, Tangents, flag, of_curve, of_surface};
+use footpoint::preimage::ProjectMemory;
 use footpoint::refine::Method;
 use footpoint::surface::Surface;
 use footpoint::unwrap::PathOutput;
@@ -136,6 +137,25 @@ fn a_query_allocates_nothing_with_a_workspace_that_has_seen_the_shape() {
                 assert_eq!(count, 0, "{name}, {kind}, hint {hint:?}: {} queries", queries.len());
             }
         }
+    }
+}
+
+#[test]
+fn a_projection_allocates_nothing_with_a_memory_that_has_seen_the_shape() {
+    let options = QueryOptions::default();
+    for (name, shape) in shapes() {
+        let points = queries(&shape, 40);
+        let mut memory = ProjectMemory::default();
+        let mut ask = |query: Vector| {
+            let direction = [0.3, -0.2, 1.0];
+            match &shape {
+                Shape::Curve(curve) => curve.project(query, direction, &options, &mut memory),
+                Shape::Surface(surface) => surface.project(query, direction, &options, &mut memory),
+            };
+        };
+        points.iter().for_each(|query| ask(*query));
+        let count = allocations(|| points.iter().for_each(|query| ask(*query)));
+        assert_eq!(count, 0, "{name}");
     }
 }
 
