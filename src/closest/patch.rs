@@ -26,9 +26,9 @@ const LEAST_WIDTH: f64 = 1e-14;
 const LONG: u32 = 40;
 /// Halvings after which coefficients are rebuilt from the poles, to shed their rounding.
 const FRESH: u32 = 12;
-/// The same in a patch that has taken `HARD` boxes: there planes close what squares do not.
-const FRESH_HARD: u32 = 2;
+/// Boxes after which a patch is hard: there planes, tried at every second halving, close what squares do not.
 const HARD: u64 = 32;
+const TILT_EVERY: u32 = 2;
 /// Tilted planes that are tried before one in 16 must have closed its box.
 const TILT_TRIES: u64 = 32;
 
@@ -282,12 +282,13 @@ impl Walk<'_, '_, '_> {
         }
         let (mut bound, mut place) = self.least_ratio(at);
         let close = bound > self.proof.level_squared() && area.age > 0;
-        let fresh = if self.hard() { FRESH_HARD } else { FRESH };
-        if area.age >= fresh || close || self.proof.tying {
+        if area.age >= FRESH || close || self.proof.tying {
             if self.load(area, at) || self.is_beyond(area, at) {
                 return Verdict::Closed;
             }
             (bound, place) = self.least_ratio(at);
+        } else if self.hard() && area.age % TILT_EVERY == 0 && self.cut_free(area).is_none() {
+            return Verdict::Closed;
         }
         let weight = if self.sheet.net.rational { extent(self.c(at)).1 } else { 1.0 };
         let slopes = self.slopes(area, at, bound);
@@ -479,8 +480,9 @@ impl Walk<'_, '_, '_> {
         hit
     }
 
-    /// Rebuilds the coefficients of slot `at` from the poles; true when a plane already separates the query.
-    fn load(&mut self, area: &mut Area, at: usize) -> bool {
+    /// The poles of an area into the scratch memory, as `r` and `W`, and their radius; `None` when a plane separates
+    /// them from the query.
+    fn cut_free(&mut self, area: &mut Area) -> Option<f64> {
         let degree = self.sheet.net.degree;
         let count = degree.count();
         let components = if self.sheet.net.rational { 4 } else { 3 };
@@ -491,24 +493,30 @@ impl Walk<'_, '_, '_> {
             cut_2d(component, degree, area.s, area.t);
         }
         let radius = subtract_query(net, count, self.sheet.query);
-        if self.proof.best.is_finite()
-            && plane_separates(net, count, self.proof, self.sheet.position)
-        {
-            return true;
+        let known = self.proof.best.is_finite();
+        if known && plane_separates(net, count, self.proof, self.sheet.position) {
+            return None;
         }
-        if self.hard() && self.proof.best.is_finite() && self.is_under_a_tilted_plane() {
-            return true;
+        if known && self.hard() && self.is_under_a_tilted_plane() {
+            return None;
         }
-        let net = &mut self.memory.net[..4 * count];
         if self.proof.tying {
-            let near = nearness(net, count, self.proof);
+            let near = nearness(&self.memory.net[..4 * count], count, self.proof);
             area.small = near.small;
             if near.around_foot {
-                return true;
+                return None;
             }
         }
+        Some(radius)
+    }
+
+    /// Rebuilds the coefficients of slot `at` from the poles; true when a plane already separates the query.
+    fn load(&mut self, area: &mut Area, at: usize) -> bool {
+        let Some(radius) = self.cut_free(area) else { return true };
+        let degree = self.sheet.net.degree;
+        let net = &mut self.memory.net[..4 * degree.count()];
         square(net, degree, &mut self.memory.coefficients[at * self.slot..(at + 1) * self.slot]);
-        self.set_error(area, at, radius, 3 * count);
+        self.set_error(area, at, radius, 3 * degree.count());
         false
     }
 
