@@ -121,11 +121,14 @@ typedef enum fpt_foot_flag {
      */
     FPT_FOOT_COLLAPSED = 16,
     /**
-     * Another foot is within the accuracy of the least distance. Set when one was met; its absence proves nothing.
+     * Another foot point lies within the accuracy of the least distance, or could not be excluded within the budget. One
+     * point with several parameters is one foot (see fpt_surface_preimage); places nearer to one another than
+     * 8 x sqrt(distance x accuracy) are one foot. Where the answer itself is not proven, its absence proves nothing.
      */
     FPT_FOOT_TIE = 32,
     /**
-     * A whole arc or region is equally near. Set when it was met; its absence proves nothing.
+     * The feet form an arc or region, equally near up to rounding; comes with FPT_FOOT_TIE. In a set: all parameters of
+     * the member's intervals; an arc that is a collapsed edge has FPT_FOOT_COLLAPSED instead.
      */
     FPT_FOOT_CONTINUUM = 64,
     /**
@@ -631,7 +634,8 @@ typedef struct fpt_extrema_options {
      */
     uint64_t budget;
     /**
-     * Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED. NULL: never.
+     * Asked on the calling thread now and then, between pieces of the shape; non-zero ends the call with
+     * FPT_CANCELLED. NULL: never.
      */
     int (*should_stop)(void *user);
     /**
@@ -645,8 +649,8 @@ typedef struct fpt_extrema_options {
  */
 typedef struct fpt_foot_member {
     /**
-     * The representative. Its lower_bound is 0; FPT_FOOT_NOT_PROVEN: a place within the tolerance could be
-     * neither found nor excluded here.
+     * The representative. Its lower_bound is 0. FPT_FOOT_NOT_PROVEN: in a preimage, a place within the tolerance could
+     * be neither found nor excluded here; in extrema, the intervals may hold more than one stationary point.
      */
     struct fpt_foot_point foot;
     /**

@@ -43,9 +43,12 @@ pub enum fpt_foot_flag {
     FPT_FOOT_SEAM = 8,
     /// The foot lies on an edge that is a single point.
     FPT_FOOT_COLLAPSED = 16,
-    /// Another foot is within the accuracy of the least distance. Set when one was met; its absence proves nothing.
+    /// Another foot point lies within the accuracy of the least distance, or could not be excluded within the budget. One
+    /// point with several parameters is one foot (see fpt_surface_preimage); places nearer to one another than
+    /// 8 x sqrt(distance x accuracy) are one foot. Where the answer itself is not proven, its absence proves nothing.
     FPT_FOOT_TIE = 32,
-    /// A whole arc or region is equally near. Set when it was met; its absence proves nothing.
+    /// The feet form an arc or region, equally near up to rounding; comes with FPT_FOOT_TIE. In a set: all parameters of
+    /// the member's intervals; an arc that is a collapsed edge has FPT_FOOT_COLLAPSED instead.
     FPT_FOOT_CONTINUUM = 64,
     /// invert: lower_bound is more than the tolerance. With FPT_FOOT_NOT_PROVEN as well the distance is
     /// more than the tolerance but the bound is not.

@@ -53,8 +53,8 @@ pub enum fpt_member_nature {
 /// A member of a set: 104 bytes, frozen.
 #[repr(C)]
 pub struct fpt_foot_member {
-    /// The representative. Its lower_bound is 0; FPT_FOOT_NOT_PROVEN: a place within the tolerance could be
-    /// neither found nor excluded here.
+    /// The representative. Its lower_bound is 0. FPT_FOOT_NOT_PROVEN: in a preimage, a place within the tolerance could
+    /// be neither found nor excluded here; in extrema, the intervals may hold more than one stationary point.
     pub foot: fpt_foot_point,
     /// Least and greatest u that belong to the member; they enclose, rounding included.
     pub u: [f64; 2],
@@ -108,7 +108,8 @@ pub struct fpt_extrema_options {
     pub domain: [f64; 4],
     /// Most boxes; 0: the default, 20,000.
     pub budget: u64,
-    /// Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED. NULL: never.
+    /// Asked on the calling thread now and then, between pieces of the shape; non-zero ends the call with
+    /// FPT_CANCELLED. NULL: never.
     pub should_stop: Option<unsafe extern "C" fn(user: *mut c_void) -> c_int>,
     /// Handed to should_stop as it is.
     pub user: *mut c_void,
