@@ -17,12 +17,17 @@ const LEAST_CURVATURE: f64 = 1e-7;
 /// Derivatives are off by some times what positions are: at a place where they vanish, only that is left of them.
 const NOISE: f64 = 64.0;
 
+/// A parameter does not move the point when its speed is below this share of the other one's.
+const SINGULAR: f64 = 1e-10;
+
 /// Signs gathered around a place.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Signs {
     up: bool,
     down: bool,
     zero: bool,
+    /// A parameter does not move the point here.
+    singular: bool,
     /// For each parameter: seen rising and falling into a piece, from the two sides of a knot line.
     across: [[bool; 2]; 2],
 }
@@ -94,6 +99,10 @@ impl Signs {
     /// Eigenvalues of the second derivatives relative to the metric.
     fn form(&mut self, [a, b, c]: [f64; 3], [e, f, g]: [f64; 3], noise: f64) {
         let area = e * g - f * f;
+        if e.min(g) <= SINGULAR * SINGULAR * e.max(g) {
+            self.singular = true;
+            return;
+        }
         if area <= 1e-12 * e * g {
             self.zero = true;
             return;
@@ -122,9 +131,14 @@ impl Signs {
         }
     }
 
+    /// Whether the surface is singular at the place, so that neither derivatives nor samples around tell.
+    pub fn is_singular(&self) -> bool {
+        self.singular
+    }
+
     /// The verdict.
     pub fn nature(&self) -> Nature {
-        match (self.up, self.down, self.zero) {
+        match (self.up, self.down, self.zero || self.singular) {
             (true, true, _) => Nature::Saddle,
             (_, _, true) => Nature::Flat,
             (true, false, false) => Nature::Minimum,

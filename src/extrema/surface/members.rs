@@ -1,13 +1,16 @@
 //! From candidates to members: the same place seen twice is one, continua are joined, and each is told what it is.
 
 use super::{Candidate, Search, Sheet, Signs, Source};
-use crate::bounds::{norm, sub};
+use crate::bounds::{Vector, norm, sub};
 use crate::closest::{FootPoint, flag};
 use crate::extrema::nature::from_samples;
-use crate::extrema::{BESIDE, Taken};
+use crate::extrema::{BESIDE, NEAR, Taken};
 use crate::extrema::{flat_limit, kind};
 use crate::refine::{Method, foot_on_surface};
 use crate::set::{Kind, Member, Nature, is_wide, joined, touch};
+
+/// Cosine between distance and tangent above which a place is not stationary.
+const SLOPE: f64 = 1e-7;
 
 /// How far around a flat member the distance is compared with its own, as a share of the range.
 const AROUND: f64 = 0.02;
@@ -34,19 +37,54 @@ impl Search<'_> {
                 members.push(member);
             }
         }
-        let mut points: Vec<Candidate> = areas(false).collect();
-        points.sort_by_key(|c| c.source);
-        for candidate in points {
-            let foot = self.foot(candidate.at);
-            if self.is_taken(&taken, &candidate, &foot) {
+        let mut points: Vec<(bool, Candidate)> =
+            areas(false).map(|c| (self.keeps_a_slope(&c), c)).collect();
+        points.sort_by_key(|&(keeps_a_slope, c)| (keeps_a_slope, c.source));
+        for (keeps_a_slope, candidate) in points {
+            let mut foot = self.foot(candidate.at);
+            let is_twin = keeps_a_slope && taken.iter().any(|known| self.is_level(known, &foot));
+            if is_twin || self.is_taken(&taken, &candidate, &foot) {
                 continue;
             }
-            if let Some(member) = self.point_member(&candidate, foot) {
+            if keeps_a_slope {
+                foot.flags |= flag::NOT_PROVEN;
+            }
+            if let Some(mut member) = self.point_member(&candidate, foot) {
+                if keeps_a_slope {
+                    // The zero is somewhere in its box.
+                    let [u0, u1, v0, v1] = candidate.area;
+                    (member.u, member.v) =
+                        ([u0.min(foot.u), u1.max(foot.u)], [v0.min(foot.v), v1.max(foot.v)]);
+                }
                 taken.push(Taken::new(&member, candidate));
                 members.push(member);
             }
         }
         members
+    }
+
+    /// Whether the distance is not stationary at a zero that was moved onto the end of its piece: near a collapsed edge rounding
+    /// hides where along the edge it lies.
+    fn keeps_a_slope(&self, candidate: &Candidate) -> bool {
+        if candidate.source != Source::OnEnd {
+            return false;
+        }
+        let around = self.index.around(candidate.at, self.range);
+        !around.iter().any(|&(piece, local)| {
+            let Some(sheet) = self.sheet(piece) else { return false };
+            let jet = sheet.jet(local);
+            let limit =
+                |tangent: Vector| norm(tangent) * (SLOPE * norm(jet.d) + 32.0 * sheet.position);
+            let [g, h] = jet.gradient();
+            g.abs() <= limit(jet.s) && h.abs() <= limit(jet.t)
+        })
+    }
+
+    /// Whether a foot is a known one within rounding: as near to the query, and beside it in space.
+    fn is_level(&self, known: &Taken, foot: &FootPoint) -> bool {
+        let near = NEAR * self.index.frame.diagonal + self.accuracy;
+        (foot.distance - known.distance).abs() <= 2.0 * self.accuracy
+            && norm(sub(foot.point, known.point)) <= near
     }
 
     fn is_taken(&self, taken: &[Taken], candidate: &Candidate, foot: &FootPoint) -> bool {
@@ -104,7 +142,7 @@ impl Search<'_> {
             return None;
         }
         let mut nature = signs.nature();
-        if nature == Nature::Flat {
+        if nature == Nature::Flat && !signs.is_singular() {
             nature = self.sampled_nature(candidate.at, candidate.area);
         }
         let (u, v) = ([foot.u; 2], [foot.v; 2]);
