@@ -30,6 +30,8 @@ pub struct Signs {
     singular: bool,
     /// For each parameter: seen rising and falling into a piece, from the two sides of a knot line.
     across: [[bool; 2]; 2],
+    /// For each parameter: a piece on the high side, on the low side of a knot line through the place.
+    sides: [[bool; 2]; 2],
 }
 
 /// Where a place lies in a piece, in one parameter: at its low end, its high end, or inside.
@@ -84,6 +86,9 @@ impl Signs {
         let noise = NOISE * norm(jet.d) * position;
         let moves = [0, 1].map(|k| {
             let inward = end_of(at[k]);
+            if inward != 0.0 {
+                self.sides[k][usize::from(inward < 0.0)] = true;
+            }
             inward != 0.0 && self.first(k, inward * gradient[k], norm(tangents[k]) * reach + noise)
         });
         let [a, b, c] = jet.hessian();
@@ -119,6 +124,11 @@ impl Signs {
     /// Whether the place is not stationary: across some knot line the distance falls on one side and rises on the other.
     pub fn passes(&self) -> bool {
         self.across.contains(&[true, true])
+    }
+
+    /// Whether the place lies on a knot line and neither of its sides tells whether the distance rises or falls.
+    pub fn is_unclear(&self) -> bool {
+        (0..2).any(|k| self.sides[k] == [true; 2] && self.across[k] == [false; 2])
     }
 
     /// The verdict on a continuum, along which nothing changes: what the signs across it say, if they say anything.

@@ -42,7 +42,10 @@ impl Search<'_> {
         points.sort_by_key(|&(keeps_a_slope, c)| (keeps_a_slope, c.source));
         for (keeps_a_slope, candidate) in points {
             let mut foot = self.foot(candidate.at);
-            let is_twin = keeps_a_slope && taken.iter().any(|known| self.is_level(known, &foot));
+            // Near a collapsed edge a zero may be seen once more on a knot line beside it.
+            let is_vague = keeps_a_slope
+                || (candidate.source == Source::Border && self.signs(candidate.at).is_unclear());
+            let is_twin = is_vague && taken.iter().any(|known| self.is_level(known, &foot));
             if is_twin || self.is_taken(&taken, &candidate, &foot) {
                 continue;
             }
