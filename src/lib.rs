@@ -13,6 +13,8 @@ pub mod curve;
 
 pub mod surface;
 
+pub mod simd;
+
 pub mod bezier;
 
 pub mod bounds;
