@@ -211,10 +211,14 @@ fn fixed_basis<const M: usize>(s: f64) -> Basis<M> {
         row[level + 1] = carry;
     }
     let (n, m) = (p as f64, (p * (p - 1)) as f64);
-    let at = |row: &[f64; M], i: usize, back: usize| if i < back { 0.0 } else { row[i - back] };
-    let first = std::array::from_fn(|i| n * (at(&once, i, 1) - once[i]));
-    let second =
-        std::array::from_fn(|i| m * (at(&twice, i, 2) - 2.0 * at(&twice, i, 1) + twice[i]));
+    let (mut first, mut second) = ([0.0; M], [0.0; M]);
+    for i in 0..M {
+        let one = if i > 0 { once[i - 1] } else { 0.0 };
+        first[i] = n * (one - once[i]);
+        let (one, two) =
+            (if i > 0 { twice[i - 1] } else { 0.0 }, if i > 1 { twice[i - 2] } else { 0.0 });
+        second[i] = m * (two - 2.0 * one + twice[i]);
+    }
     [row, first, second]
 }
 
@@ -222,6 +226,11 @@ fn fixed_basis<const M: usize>(s: f64) -> Basis<M> {
 fn vector<V: Lanes<4>>(lane: V) -> Vector {
     let [x, y, z, _] = lane.array();
     [x, y, z]
+}
+
+#[inline(always)]
+fn weight<V: Lanes<4>>(lane: V) -> f64 {
+    lane.array()[3]
 }
 
 struct SegmentJet<'a>(&'a BezierSegment<'a>, f64, Vector);
@@ -256,12 +265,13 @@ impl Kernel for SegmentJet<'_> {
             p => self.sums::<S, { MAX_DEGREE + 1 }>(p + 1),
         };
         if !self.0.rational {
-            let [x, s, ss] = sums.map(vector);
-            return Jet1 { d: sub(x, self.2), s, ss, w: [1.0, 0.0] };
+            let d = sub(vector(sums[0]), self.2);
+            return Jet1 { d, s: vector(sums[1]), ss: vector(sums[2]), w: [1.0, 0.0] };
         }
         let p = S::F4::load(&[self.2[0], self.2[1], self.2[2], 0.0]);
-        let weights = sums.map(|sum| sum.array()[3]);
-        let [w, w1, w2] = weights.map(S::F4::splat);
+        let weights = [weight(sums[0]), weight(sums[1]), weight(sums[2])];
+        let (w, w1) = (S::F4::splat(weights[0]), S::F4::splat(weights[1]));
+        let w2 = S::F4::splat(weights[2]);
         let d = (sums[0] - w * p) / w;
         let s = (sums[1] - w1 * p - w1 * d) / w;
         let ss = (sums[2] - w2 * p - S::F4::splat(2.0) * w1 * s - w2 * d) / w;
@@ -296,19 +306,21 @@ impl PatchJet<'_> {
         // Sums over the rows, one a column; then sums over the columns.
         let mut partial = [[S::F4::splat(0.0); N]; 3];
         for (i, row) in self.0.lanes.chunks_exact(columns).enumerate() {
-            let b = [0, 1, 2].map(|k| S::F4::splat(across[k][i]));
+            let (b, b1) = (S::F4::splat(across[0][i]), S::F4::splat(across[1][i]));
+            let b2 = S::F4::splat(across[2][i]);
             for j in 0..columns {
                 let lane = S::F4::load(&row[j]);
-                for k in 0..3 {
-                    partial[k][j] = partial[k][j] + b[k] * lane;
-                }
+                partial[0][j] = partial[0][j] + b * lane;
+                partial[1][j] = partial[1][j] + b1 * lane;
+                partial[2][j] = partial[2][j] + b2 * lane;
             }
         }
         let along = bernstein::<N>(columns, self.1[1]);
         let mut sums = [S::F4::splat(0.0); 6];
         for j in 0..columns {
-            let [value, s, ss] = [0, 1, 2].map(|k| partial[k][j]);
-            let [b, b1, b2] = [0, 1, 2].map(|k| S::F4::splat(along[k][j]));
+            let (value, s, ss) = (partial[0][j], partial[1][j], partial[2][j]);
+            let (b, b1) = (S::F4::splat(along[0][j]), S::F4::splat(along[1][j]));
+            let b2 = S::F4::splat(along[2][j]);
             let terms = [b * value, b * s, b1 * value, b * ss, b1 * s, b2 * value];
             for k in 0..6 {
                 sums[k] = sums[k] + terms[k];
@@ -332,8 +344,15 @@ impl Kernel for PatchJet<'_> {
             _ => self.sums::<S, { MAX_DEGREE + 1 }>(),
         };
         if !self.0.rational {
-            let [x, s, t, ss, st, tt] = sums.map(vector);
-            return Jet2 { d: sub(x, self.2), s, t, ss, st, tt, w: [1.0, 0.0, 0.0] };
+            return Jet2 {
+                d: sub(vector(sums[0]), self.2),
+                s: vector(sums[1]),
+                t: vector(sums[2]),
+                ss: vector(sums[3]),
+                st: vector(sums[4]),
+                tt: vector(sums[5]),
+                w: [1.0, 0.0, 0.0],
+            };
         }
         divided(sums, self.2)
     }
@@ -350,16 +369,25 @@ impl BezierPatch<'_> {
 fn divided<V: Lanes<4>>(sums: [V; 6], p: Vector) -> Jet2 {
     let p = V::load(&[p[0], p[1], p[2], 0.0]);
     let two = V::splat(2.0);
-    let weights = sums.map(|sum| sum.array()[3]);
-    let [w, ws, wt, wss, wst, wtt] = weights.map(V::splat);
+    let weights = [weight(sums[0]), weight(sums[1]), weight(sums[2])];
+    let (w, ws) = (V::splat(weights[0]), V::splat(weights[1]));
+    let (wt, wss) = (V::splat(weights[2]), V::splat(weight(sums[3])));
+    let (wst, wtt) = (V::splat(weight(sums[4])), V::splat(weight(sums[5])));
     let d = (sums[0] - w * p) / w;
     let s = (sums[1] - ws * p - ws * d) / w;
     let t = (sums[2] - wt * p - wt * d) / w;
     let ss = (sums[3] - wss * p - two * ws * s - wss * d) / w;
     let st = (sums[4] - wst * p - ws * t - wt * s - wst * d) / w;
     let tt = (sums[5] - wtt * p - two * wt * t - wtt * d) / w;
-    let [d, s, t, ss, st, tt] = [d, s, t, ss, st, tt].map(vector);
-    Jet2 { d, s, t, ss, st, tt, w: [weights[0], weights[1], weights[2]] }
+    Jet2 {
+        d: vector(d),
+        s: vector(s),
+        t: vector(t),
+        ss: vector(ss),
+        st: vector(st),
+        tt: vector(tt),
+        w: weights,
+    }
 }
 
 #[cfg(test)]
@@ -410,7 +438,8 @@ mod tests {
         }
         let pole_lanes: Vec<Lane> = lanes(&poles, true).collect();
         let level = Level::detect();
-        let patch = BezierPatch { degree, rational: true, poles: &poles, lanes: &pole_lanes, level };
+        let patch =
+            BezierPatch { degree, rational: true, poles: &poles, lanes: &pole_lanes, level };
         let (s, t, h, p) = (0.4, 0.7, 1e-5, [0.3, -0.2, 1.0]);
         let jet = patch.jet(s, t, p);
         let central =

@@ -19,6 +19,8 @@ pub mod bezier;
 
 pub mod bounds;
 
+pub mod coefficients;
+
 pub mod jet;
 
 pub mod tree;

@@ -9,7 +9,7 @@
 //!                   '-- AVX-512 F, VL, DQ 8 doubles
 //! ```
 //!
-//! The bits are the same on every path: lanes never meet but in [`Lanes::fold`], whose order is fixed, no operation is
+//! The bits are the same on every path: lanes never meet but in [`Lanes::least`] and [`Lanes::greatest`], whose order is fixed, no operation is
 //! fused, and `min` and `max` return their second argument when neither is less or greater. `tests/levels.rs` compares
 //! whole answers.
 //!
@@ -52,30 +52,32 @@ pub trait Lanes<const N: usize>:
         out
     }
 
-    /// The lanes joined by `f`, halves first: lane 0 meets lane N/2.
+    /// The least lane; halves are compared first: lane 0 meets lane N/2.
     #[inline(always)]
-    fn fold(self, f: impl Fn(f64, f64) -> f64) -> f64 {
+    fn least(self) -> f64 {
         let mut x = self.array();
         let mut n = N / 2;
         while n > 0 {
             for k in 0..n {
-                x[k] = f(x[k], x[k + n]);
+                x[k] = if x[k + n] < x[k] { x[k + n] } else { x[k] };
             }
             n /= 2;
         }
         x[0]
     }
 
-    /// The least lane.
-    #[inline(always)]
-    fn least(self) -> f64 {
-        self.fold(|a, b| if b < a { b } else { a })
-    }
-
-    /// The greatest lane.
+    /// The greatest lane, as [`Self::least`].
     #[inline(always)]
     fn greatest(self) -> f64 {
-        self.fold(|a, b| if b > a { b } else { a })
+        let mut x = self.array();
+        let mut n = N / 2;
+        while n > 0 {
+            for k in 0..n {
+                x[k] = if x[k + n] > x[k] { x[k + n] } else { x[k] };
+            }
+            n /= 2;
+        }
+        x[0]
     }
 }
 
@@ -87,7 +89,8 @@ pub trait Simd: Copy {
     type F8: Lanes<8>;
 }
 
-/// One computation, compiled for every level. `run` must be `#[inline(always)]`, and so must what it calls.
+/// One computation, compiled for every level. `run` must be `#[inline(always)]`, and so must what it calls: no closures,
+/// which cannot be marked so, and no `map` of arrays.
 pub trait Kernel {
     /// What it returns.
     type Out;

@@ -6,6 +6,7 @@ use super::piece::{
 };
 use crate::bezier::{Bidegree, extraction};
 use crate::bounds::{Aabb, HALF_ULP, Vector, add, extent, norm, sub};
+use crate::coefficients::Grid;
 use crate::error::Error;
 use crate::index::segments::pieces;
 use crate::jet::{BezierPatch, Lane, lanes};
@@ -71,7 +72,8 @@ pub struct SurfaceIndex {
     nets: Vec<f64>,
     lanes: Vec<Lane>,
     tensors: Vec<f64>,
-    level: Level,
+    /// The coefficient arrays of its patches.
+    pub grid: Grid,
 }
 
 /// One direction's spans with their extraction matrices.
@@ -124,7 +126,7 @@ impl SurfaceIndex {
             collapsed: surface.collapsed_edges(),
             nets: reserved(count * width)?,
             lanes: reserved(count * degree.count())?,
-            level: Level::detect(),
+            grid: Grid::new(degree, rational, Level::detect()),
             tensors: reserved(if keep_tensors { count * tensor_width } else { 0 })?,
         };
         let mut boxes = reserved(count)?;
@@ -264,7 +266,13 @@ impl SurfaceIndex {
         let poles = &self.nets[k * width..(k + 1) * width];
         let count = self.degree.count();
         let lanes = &self.lanes[k * count..(k + 1) * count];
-        BezierPatch { degree: self.degree, rational: self.rational, poles, lanes, level: self.level }
+        BezierPatch {
+            degree: self.degree,
+            rational: self.rational,
+            poles,
+            lanes,
+            level: self.grid.level,
+        }
     }
 
     /// Patch `k`'s tensors A, -2 B, C, when they are kept.
@@ -278,6 +286,7 @@ impl SurfaceIndex {
         (self.nets.capacity() + self.tensors.capacity() + 4 * self.lanes.capacity()) * 8
             + self.patches.capacity() * size_of::<Patch>()
             + self.tree.memory()
+            + self.grid.memory()
     }
 }
 

@@ -6,11 +6,12 @@ use super::piece::{
 };
 use crate::bezier::{Bidegree, extraction};
 use crate::bounds::{Aabb, HALF_ULP, Vector, add, extent};
+use crate::coefficients::Grid;
 use crate::curve::Curve;
 use crate::error::Error;
 use crate::jet::{BezierSegment, Lane, lanes};
-use crate::simd::Level;
 use crate::knots::Knots;
+use crate::simd::Level;
 use crate::tree::Tree;
 
 /// One Bezier segment; its numbers are in [`CurveIndex`]'s arrays.
@@ -42,7 +43,8 @@ pub struct CurveIndex {
     nets: Vec<f64>,
     lanes: Vec<Lane>,
     tensors: Vec<f64>,
-    level: Level,
+    /// The coefficient arrays of its segments.
+    pub grid: Grid,
 }
 
 impl CurveIndex {
@@ -67,7 +69,7 @@ impl CurveIndex {
             rational,
             nets: reserved(spans.len() * width)?,
             lanes: reserved(spans.len() * (p + 1))?,
-            level: Level::detect(),
+            grid: Grid::new(degree, rational, Level::detect()),
             tensors: reserved(if keep_tensors { spans.len() * tensor_width } else { 0 })?,
         };
         let mut boxes = reserved(spans.len())?;
@@ -152,7 +154,7 @@ impl CurveIndex {
         let width = (self.degree + 1) * if self.rational { 4 } else { 3 };
         let poles = &self.nets[k * width..(k + 1) * width];
         let lanes = &self.lanes[k * (self.degree + 1)..(k + 1) * (self.degree + 1)];
-        let (degree, rational, level) = (self.degree, self.rational, self.level);
+        let (degree, rational, level) = (self.degree, self.rational, self.grid.level);
         BezierSegment { degree, rational, poles, lanes, level }
     }
 
@@ -167,6 +169,7 @@ impl CurveIndex {
         (self.nets.capacity() + self.tensors.capacity() + 4 * self.lanes.capacity()) * 8
             + self.segments.capacity() * size_of::<Segment>()
             + self.tree.memory()
+            + self.grid.memory()
     }
 }
 

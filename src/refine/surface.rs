@@ -329,10 +329,10 @@ fn principal(a: f64, b: f64, c: f64) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::jet::{Lane, lanes};
-    use crate::simd::Level;
     use crate::bezier::Bidegree;
     use crate::bounds::{add, scaled};
+    use crate::jet::{Lane, lanes};
+    use crate::simd::Level;
 
     fn patch_poles() -> Vec<f64> {
         let (mut x, mut y, mut z) = (vec![], vec![], vec![]);

@@ -114,9 +114,7 @@ impl Lanes<4> for Four {
     #[inline(always)]
     fn where_less(self, a: Self, b: Self, other: Self) -> Self {
         // SAFETY: vectors exist only where AVX2 does.
-        Self(unsafe {
-            _mm256_blendv_pd(other.0, self.0, _mm256_cmp_pd::<_CMP_LT_OQ>(a.0, b.0))
-        })
+        Self(unsafe { _mm256_blendv_pd(other.0, self.0, _mm256_cmp_pd::<_CMP_LT_OQ>(a.0, b.0)) })
     }
 }
 
@@ -129,7 +127,8 @@ fn halves(values: &[f64; 8]) -> [&[f64; 4]; 2] {
 impl Lanes<8> for Eight {
     #[inline(always)]
     fn load(values: &[f64; 8]) -> Self {
-        Self(halves(values).map(Four::load))
+        let [a, b] = halves(values);
+        Self([Four::load(a), Four::load(b)])
     }
 
     #[inline(always)]
@@ -166,7 +165,7 @@ impl Lanes<8> for Eight {
 
     #[inline(always)]
     fn where_less(self, a: Self, b: Self, other: Self) -> Self {
-        let of = |k: usize| self.0[k].where_less(a.0[k], b.0[k], other.0[k]);
-        Self([of(0), of(1)])
+        let ([x, y], [z, w]) = (self.0, other.0);
+        Self([x.where_less(a.0[0], b.0[0], z), y.where_less(a.0[1], b.0[1], w)])
     }
 }

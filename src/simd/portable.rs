@@ -67,8 +67,11 @@ impl<const N: usize> Lanes<N> for Array<N> {
     }
 
     #[inline(always)]
-    fn abs(self) -> Self {
-        Self(self.0.map(f64::abs))
+    fn abs(mut self) -> Self {
+        for k in 0..N {
+            self.0[k] = self.0[k].abs();
+        }
+        self
     }
 
     #[inline(always)]

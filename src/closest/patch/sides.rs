@@ -146,7 +146,8 @@ impl Walk<'_, '_, '_> {
             w.clear();
             w.extend_from_slice(&self.sheet.net.poles[3 * net.count()..]);
             cut_2d(w, net, area.s, area.t);
-            let n = &self.memory.coefficients[at * self.slot..at * self.slot + self.count];
+            let slot = &self.memory.coefficients[at * self.slot..(at + 1) * self.slot];
+            let n = self.sheet.grid.n(slot);
             let found = rational_slope_extent(n, w, net, k, &mut memory);
             let size = product_steps(2 * net.count()) * area.radius * area.radius;
             (found, 8.0 * n_degree * extent(w).1 * weight * (area.error + size))
