@@ -184,6 +184,14 @@ impl Grid {
         self.level.run(Multiply { grid: self, tensors, p, square, slot });
     }
 
+    /// Fills a slot with coefficients of N and, when rational, of C.
+    pub fn fill(&self, n: &[f64], c: &[f64], slot: &mut [f64]) {
+        slot[LANES..LANES + self.count].copy_from_slice(n);
+        if self.rational {
+            slot[self.stride + LANES..][..self.count].copy_from_slice(c);
+        }
+    }
+
     /// Whether all `N > mu C`, for two values of `mu`.
     pub fn all_beyond(&self, slot: &[f64], mu: [f64; 2]) -> [bool; 2] {
         self.level.run(Beyond { grid: self, slot, mu })
