@@ -109,7 +109,13 @@ pub fn foot_on_surface(
             }
         }
         if found.is_none() && method == Method::Auto {
-            found = creep(surface, &state, &place, step, &accept, &mut taken);
+            // Where the sides of the box cut a step off, what is left of it may point anywhere: one by one, then.
+            let alone = [0, 1].map(|k| single(&place.jet, k, method).0);
+            for step in [step, alone[0], alone[1]] {
+                if found.is_none() {
+                    found = creep(surface, &state, &place, step, &accept, &mut taken);
+                }
+            }
         }
         let Some((next, candidate)) = found else { break };
         (state.at, place) = (next, candidate);
