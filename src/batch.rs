@@ -1,19 +1,34 @@
 //! Many queries over all cores, with the same bits for any number of threads.
 //!
 //! Queries never seed each other and every thread has its own workspace, so the order of work cannot show in the
-//! answers. Tiles go round the threads like cards; the calling thread works too and looks at `poll` between
-//! its tiles. No locks and no allocation on the way of a query.
+//! answers. Threads take tiles as they get free; the calling thread works too and looks at `poll` between its groups.
+//! Within a tile the queries may be asked in the order of a space-filling curve (Z order), so that neighbours find the
+//! pieces of a large shape in the caches. No locks and no allocation on the way of a query; memory beyond the answers is
+//! bounded for any number of queries: at most 512 KiB a thread.
 
+use std::cell::Cell;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-use crate::closest::FootPoint;
+use crate::bounds::Vector;
+use crate::closest::{FootPoint, Workspace};
 use crate::error::Error;
+use crate::preimage::ProjectMemory;
 
-/// Queries in a tile: neighbours in the input share a tile and with it the caches; long enough for that, short
-/// enough that the threads end together.
-const TILE: usize = 128;
+/// Queries between two looks at `poll`, and least queries of a tile.
+const GROUP: usize = 128;
+
+/// Most queries of a tile: their order takes 512 KiB.
+const LARGEST_TILE: usize = 1 << 16;
+
+/// Tiles a thread: enough for threads to end together when queries differ in cost; fewer when each is put in order, since
+/// that gains more the larger the tile is.
+const TILES: usize = 64;
+const ORDERED_TILES: usize = 8;
+
+/// Bits of the Z order in each direction.
+const BITS: u32 = 10;
 
 /// How often the calling thread polls while it waits for the others.
 const PAUSE: Duration = Duration::from_millis(1);
@@ -21,82 +36,121 @@ const PAUSE: Duration = Duration::from_millis(1);
 /// The work of a batch: query number and workspace of the thread to record.
 pub type Work<'a, W> = &'a (dyn Fn(usize, &mut W) -> FootPoint + Sync);
 
+/// Where a query is, when queries are to be put in order.
+pub type Place<'a> = &'a (dyn Fn(usize) -> Vector + Sync);
+
 /// Asked on the calling thread with the number of queries done; true stops the batch.
 pub type Poll<'a> = &'a mut dyn FnMut(usize) -> bool;
 
-/// The tiles of one thread: number of the first query and where its records go.
-type Hand<'a> = Vec<(usize, &'a mut [FootPoint])>;
+/// What a thread works with.
+pub trait Memory: Default {
+    /// Calls `f` with the memory of the calling thread, which may be kept for its next batch.
+    fn with_own<R>(f: impl FnOnce(&mut Self) -> R) -> R {
+        f(&mut Self::default())
+    }
+}
+
+impl Memory for Workspace {
+    /// Kept by the thread until it ends, so that calls with one query each allocate nothing.
+    fn with_own<R>(f: impl FnOnce(&mut Self) -> R) -> R {
+        thread_local! {
+            static OWN: Cell<Option<Workspace>> = const { Cell::new(None) };
+        }
+        // A call from within a callback, or while the thread ends, finds none and makes its own.
+        let kept = OWN.try_with(Cell::take).ok().flatten();
+        let mut workspace = kept.unwrap_or_default();
+        let result = f(&mut workspace);
+        let _ = OWN.try_with(|own| own.set(Some(workspace)));
+        result
+    }
+}
+
+impl Memory for ProjectMemory {}
+
+/// A tile: number of the first query and where its records go.
+type Tile<'a> = (usize, &'a mut [FootPoint]);
 
 #[derive(Default)]
 struct Progress {
+    next: AtomicUsize,
     done: AtomicUsize,
     stop: AtomicBool,
 }
 
-/// Runs `work` for every index of `out` on `threads` threads (0: all cores; 1: the calling thread only).
+/// Runs `work` for every index of `out` on `threads` threads (0: all cores; 1: the calling thread only), those of a tile in
+/// the order of their places when `place` is given.
 ///
 /// # Errors
 /// [`Error::OutOfMemory`] before anything is written. [`Error::Cancelled`] when `poll` said so: records not
 /// reached are [`FootPoint::unreached`].
-pub fn run<W: Default>(
+pub fn run<W: Memory>(
     out: &mut [FootPoint],
     threads: usize,
+    place: Option<Place>,
     work: Work<W>,
     poll: Poll,
 ) -> Result<(), Error> {
     let total = out.len();
-    let wanted = if threads == 0 { cores() } else { threads };
-    let threads = wanted.min(total.div_ceil(TILE)).max(1);
-    let mut hands = deal(out, threads)?;
-    for (_, tile) in hands.iter_mut().flatten() {
-        tile.fill(FootPoint::unreached());
-    }
+    let wanted = if threads == 0 && total > GROUP { cores() } else { threads.max(1) };
+    let threads = wanted.min(total.div_ceil(GROUP)).max(1);
+    let tiles = threads * if place.is_some() { ORDERED_TILES } else { TILES };
+    let size = (total / tiles).clamp(GROUP, LARGEST_TILE);
     let progress = Progress::default();
     if threads == 1 {
-        hands.into_iter().for_each(|hand| work_off(hand, work, &progress, poll));
+        W::with_own(|memory| {
+            for (k, records) in out.chunks_mut(size).enumerate() {
+                work_off((k * size, records), memory, place, work, &progress, poll);
+            }
+        });
     } else {
-        work_together(hands, work, &progress, poll);
+        let tiles = dealt(out, size)?;
+        work_together(&tiles, threads, place, work, &progress, poll);
     }
     let complete = progress.done.load(Ordering::Relaxed) == total;
     if complete { Ok(()) } else { Err(Error::Cancelled) }
 }
 
-fn deal(out: &mut [FootPoint], threads: usize) -> Result<Vec<Hand<'_>>, Error> {
-    let tiles = out.len().div_ceil(TILE);
-    let mut hands = Vec::new();
-    hands.try_reserve_exact(threads).map_err(|_| Error::OutOfMemory)?;
-    for _ in 0..threads {
-        let mut hand = Hand::new();
-        hand.try_reserve_exact(tiles.div_ceil(threads)).map_err(|_| Error::OutOfMemory)?;
-        hands.push(hand);
+/// Tiles that wait for the thread that takes them.
+fn dealt(out: &mut [FootPoint], size: usize) -> Result<Vec<Mutex<Option<Tile<'_>>>>, Error> {
+    let mut tiles = Vec::new();
+    tiles.try_reserve_exact(out.len().div_ceil(size)).map_err(|_| Error::OutOfMemory)?;
+    for (k, records) in out.chunks_mut(size).enumerate() {
+        tiles.push(Mutex::new(Some((k * size, records))));
     }
-    for (k, tile) in out.chunks_mut(TILE).enumerate() {
-        hands[k % threads].push((k * TILE, tile));
-    }
-    Ok(hands)
+    Ok(tiles)
 }
 
-/// One thread a hand, the calling one included. Hands that no thread has taken, because it could not be started or
-/// has not got so far, are left to the caller, which then polls until the last thread has ended.
-fn work_together<W: Default>(hands: Vec<Hand>, work: Work<W>, progress: &Progress, poll: Poll) {
-    let hands: Vec<Mutex<Option<Hand>>> =
-        hands.into_iter().map(|hand| Mutex::new(Some(hand))).collect();
-    let take = |k: usize| hands[k].lock().unwrap_or_else(PoisonError::into_inner).take();
+/// Threads that take tiles until none is left, the calling one included: it polls between its groups and while it waits
+/// for the others. A thread that cannot be started leaves its share to the rest.
+fn work_together<W: Memory>(
+    tiles: &[Mutex<Option<Tile>>],
+    threads: usize,
+    place: Option<Place>,
+    work: Work<W>,
+    progress: &Progress,
+    poll: Poll,
+) {
+    let take_all = |memory: &mut W, poll: Poll| {
+        while let Some(tile) = tiles.get(progress.next.fetch_add(1, Ordering::Relaxed)) {
+            // Each tile is taken once: nobody waits here.
+            let tile = tile.lock().unwrap_or_else(PoisonError::into_inner).take();
+            if let Some(tile) = tile {
+                work_off(tile, memory, place, work, progress, poll);
+            }
+        }
+    };
     std::thread::scope(|scope| {
         let caller = std::thread::current();
-        let mut started = Vec::with_capacity(hands.len());
-        for k in 1..hands.len() {
-            let (take, caller) = (&take, caller.clone());
+        let mut started = Vec::with_capacity(threads);
+        for _ in 1..threads {
+            let (take_all, caller) = (&take_all, caller.clone());
             let task = move || {
-                take(k).into_iter().for_each(|hand| work_off(hand, work, progress, &mut |_| false));
+                take_all(&mut W::default(), &mut |_| false);
                 caller.unpark();
             };
             started.extend(std::thread::Builder::new().spawn_scoped(scope, task));
         }
-        take(0).into_iter().for_each(|hand| work_off(hand, work, progress, poll));
-        for k in 1..hands.len() {
-            take(k).into_iter().for_each(|hand| work_off(hand, work, progress, poll));
-        }
+        W::with_own(|memory| take_all(memory, poll));
         while !started.iter().all(|thread| thread.is_finished()) {
             if poll(progress.done.load(Ordering::Relaxed)) {
                 progress.stop.store(true, Ordering::Relaxed);
@@ -106,20 +160,58 @@ fn work_together<W: Default>(hands: Vec<Hand>, work: Work<W>, progress: &Progres
     });
 }
 
-fn work_off<W: Default>(hand: Hand, work: Work<W>, progress: &Progress, poll: Poll) {
-    let mut workspace = W::default();
-    for (first, tile) in hand {
+fn work_off<W>(
+    (first, records): Tile,
+    memory: &mut W,
+    place: Option<Place>,
+    work: Work<W>,
+    progress: &Progress,
+    poll: Poll,
+) {
+    let order = place.map(|place| in_z_order(first, records.len(), place)).unwrap_or_default();
+    let total = records.len();
+    for group in (0..total).step_by(GROUP) {
+        let end = (group + GROUP).min(total);
+        let at = |k: usize| order.get(k).map_or(k, |&entry| (entry & 0xffff_ffff) as usize);
         if poll(progress.done.load(Ordering::Relaxed)) {
             progress.stop.store(true, Ordering::Relaxed);
         }
         if progress.stop.load(Ordering::Relaxed) {
+            (group..total).for_each(|k| records[at(k)] = FootPoint::unreached());
             return;
         }
-        for (k, record) in tile.iter_mut().enumerate() {
-            *record = work(first + k, &mut workspace);
+        for k in group..end {
+            records[at(k)] = work(first + at(k), memory);
         }
-        progress.done.fetch_add(tile.len(), Ordering::Relaxed);
+        progress.done.fetch_add(end - group, Ordering::Relaxed);
     }
+}
+
+/// The queries of a tile along the Z order of their box: key in the upper half, number in the tile in the lower. Empty
+/// (the order as it is) when there is no memory for it.
+fn in_z_order(first: usize, count: usize, place: Place) -> Vec<u64> {
+    let mut order = Vec::new();
+    if order.try_reserve_exact(count).is_err() {
+        return order;
+    }
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for at in (first..first + count).map(place) {
+        for c in (0..3).filter(|&c| at[c].is_finite()) {
+            (low[c], high[c]) = (low[c].min(at[c]), high[c].max(at[c]));
+        }
+    }
+    let cells = f64::from(1 << BITS);
+    let scale = [0, 1, 2].map(|c| cells / (high[c] - low[c]).max(f64::MIN_POSITIVE));
+    order.extend((0..count).map(|k| {
+        let at = place(first + k);
+        // A cast of what is not a number is zero; queries may be anywhere, only time depends on it.
+        let cell = [0, 1, 2].map(|c| (((at[c] - low[c]) * scale[c]) as u32).min((1 << BITS) - 1));
+        let bit =
+            |b: u32| (0..3).map(|c| ((cell[c] >> b) as u64 & 1) << (3 * b + c as u32)).sum::<u64>();
+        (0..BITS).map(bit).sum::<u64>() << 32 | k as u64
+    }));
+    order.sort_unstable();
+    order
 }
 
 fn cores() -> usize {
@@ -129,25 +221,50 @@ fn cores() -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::closest::Workspace;
 
     fn numbered(i: usize, _: &mut Workspace) -> FootPoint {
         FootPoint { u: i as f64, ..FootPoint::unreached() }
     }
 
+    fn scattered(i: usize) -> Vector {
+        if i % 97 == 3 {
+            return [f64::NAN, f64::INFINITY, 1e300];
+        }
+        [((i * 31) % 101) as f64, ((i * 17) % 89) as f64, (i % 7) as f64 - 1e4]
+    }
+
+    #[test]
+    fn an_order_holds_every_query_once_and_neighbours_are_near() {
+        let order = in_z_order(1000, 4096, &scattered);
+        let mut seen: Vec<u64> = order.iter().map(|entry| entry & 0xffff_ffff).collect();
+        let at = |k: u64| scattered(1000 + k as usize);
+        let apart = |pair: &[u64]| {
+            let (a, b) = (at(pair[0]), at(pair[1]));
+            (0..3).map(|c| (a[c] - b[c]).abs()).filter(|x| x.is_finite()).sum::<f64>()
+        };
+        let walk = |list: &[u64]| list.windows(2).map(apart).filter(|&x| x < 1e3).sum::<f64>();
+        let sorted = walk(&seen);
+        seen.sort_unstable();
+        assert!(seen.iter().enumerate().all(|(i, &k)| i as u64 == k));
+        assert!(4.0 * sorted < walk(&seen), "{sorted} {}", walk(&seen));
+    }
+
     #[test]
     fn every_record_is_written_in_its_place() {
-        for (count, threads) in [(0, 3), (1, 0), (1000, 1), (1000, 3), (5000, 8)] {
+        for (count, threads) in [(0, 3), (1, 0), (1000, 1), (1000, 3), (70_000, 8)] {
             let mut out = vec![FootPoint::unreached(); count];
-            run(&mut out, threads, &numbered, &mut |_| false).unwrap();
-            assert!(out.iter().enumerate().all(|(i, foot)| foot.u == i as f64));
+            for place in [None, Some(&scattered as Place)] {
+                out.fill(FootPoint::unreached());
+                run(&mut out, threads, place, &numbered, &mut |_| false).unwrap();
+                assert!(out.iter().enumerate().all(|(i, foot)| foot.u == i as f64));
+            }
         }
     }
 
     #[test]
     fn a_stopped_batch_leaves_the_rest_unreached() {
         let mut out = vec![FootPoint::unreached(); 1000];
-        let stopped = run(&mut out, 1, &numbered, &mut |done| done >= 300);
+        let stopped = run(&mut out, 1, None, &numbered, &mut |done| done >= 300);
         assert_eq!(stopped, Err(Error::Cancelled));
         assert!(out[0].u == 0.0 && out[999].u.is_nan());
     }

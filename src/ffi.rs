@@ -260,6 +260,6 @@ pub extern "C" fn fpt_panic_test(threads: u32) -> fpt_status {
         let work = |i, _: &mut ()| {
             if i == 200 { panic!("record {i} panics on purpose") } else { unreached }
         };
-        Ok(crate::batch::run(&mut out, threads as usize, &work, &mut |_| false)?)
+        Ok(crate::batch::run(&mut out, threads as usize, None, &work, &mut |_| false)?)
     })
 }

@@ -187,7 +187,7 @@ fn a_batch_allocates_as_often_for_many_queries_as_for_few() {
             let work = |i: usize, workspace: &mut Workspace| {
                 shape.ask_with(queries[i % queries.len()], None, &options, workspace)
             };
-            allocations(|| batch::run(&mut out, 1, &work, &mut |_| false).expect("a batch"))
+            allocations(|| batch::run(&mut out, 1, None, &work, &mut |_| false).expect("a batch"))
         };
         run(1);
         let (few, many) = (run(100), run(1000));

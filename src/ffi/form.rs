@@ -51,6 +51,13 @@ impl CurveForm {
         }
     }
 
+    pub(super) fn index_bytes(&self) -> usize {
+        match self {
+            Self::Spline(curve) => curve.index_bytes(),
+            Self::Function(_) => 0,
+        }
+    }
+
     pub(super) fn domain(&self) -> (f64, f64) {
         match self {
             Self::Spline(curve) => curve.curve().domain(),
@@ -168,6 +175,13 @@ impl SurfaceForm {
         match self {
             Self::Spline(surface) => Ok(surface),
             Self::Function(_) => Err(no_spline("surface")),
+        }
+    }
+
+    pub(super) fn index_bytes(&self) -> usize {
+        match self {
+            Self::Spline(surface) => surface.index_bytes(),
+            Self::Function(_) => 0,
         }
     }
 

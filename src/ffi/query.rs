@@ -10,7 +10,7 @@ use super::options::fpt_query_options;
 use super::records::{feet, fpt_foot_point};
 use super::surface::{self, fpt_surface};
 use super::{Failure, fpt_status, guard};
-use crate::batch;
+use crate::batch::{self, Memory};
 use crate::closest::{FootPoint, QueryOptions, Trace};
 use crate::error::Error;
 use crate::index::{IndexedCurve, IndexedSurface};
@@ -118,12 +118,17 @@ pub unsafe extern "C" fn fpt_surface_invert(
     })
 }
 
+/// Bytes of an index from which on a batch puts its queries in order: half a second-level cache.
+const LARGE: usize = 512 << 10;
+
 /// What a batch needs of a shape with `N` parameters.
 pub(super) trait Shape<const N: usize>: Sync {
     /// Start and end of each parameter.
     fn ends(&self) -> [[f64; 2]; N];
     fn check_restriction(&self, domain: [f64; 4]) -> Result<(), Error>;
     fn build(&self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error>;
+    /// Whether its index is larger than the caches of a core, so that the order of queries counts.
+    fn is_large(&self) -> bool;
 }
 
 impl Shape<1> for CurveForm {
@@ -138,6 +143,10 @@ impl Shape<1> for CurveForm {
 
     fn build(&self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error> {
         self.prepare(poll)
+    }
+
+    fn is_large(&self) -> bool {
+        self.index_bytes() > LARGE
     }
 }
 
@@ -154,6 +163,10 @@ impl Shape<2> for SurfaceForm {
     fn build(&self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error> {
         self.prepare(poll)
     }
+
+    fn is_large(&self) -> bool {
+        self.index_bytes() > LARGE
+    }
 }
 
 impl Shape<1> for IndexedCurve {
@@ -169,6 +182,10 @@ impl Shape<1> for IndexedCurve {
     fn build(&self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error> {
         self.prepare(poll)
     }
+
+    fn is_large(&self) -> bool {
+        self.index_bytes() > LARGE
+    }
 }
 
 impl Shape<2> for IndexedSurface {
@@ -183,6 +200,10 @@ impl Shape<2> for IndexedSurface {
 
     fn build(&self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error> {
         self.prepare(poll)
+    }
+
+    fn is_large(&self) -> bool {
+        self.index_bytes() > LARGE
     }
 }
 
@@ -244,7 +265,7 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
     }
 
     /// Asks `ask`, one operation on one query point, for every record; `W` is what a thread works with.
-    pub(super) fn run<W: Default>(mut self, ask: impl Ask<S, W, N>) -> Result<(), Failure> {
+    pub(super) fn run<W: Memory>(mut self, ask: impl Ask<S, W, N>) -> Result<(), Failure> {
         self.answer(ask)?;
         let total = self.out.len();
         if total > 0 {
@@ -254,7 +275,7 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
     }
 
     /// As [`Self::run`], without the last report: more is to be done.
-    pub(super) fn answer<W: Default>(&mut self, ask: impl Ask<S, W, N>) -> Result<(), Failure> {
+    pub(super) fn answer<W: Memory>(&mut self, ask: impl Ask<S, W, N>) -> Result<(), Failure> {
         let Self { shape, points, hints, ends, options, threads, callbacks, out } = self;
         let total = out.len();
         if total == 0 {
@@ -272,7 +293,9 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
                 if callbacks.trace.is_some() { Some(&mut told) } else { None };
             ask(shape, points.row(i), hint, options, workspace, trace)
         };
-        Ok(batch::run(out, *threads, &work, &mut |done| callbacks.poll(done, total))?)
+        let at = |i: usize| points.row(i);
+        let place: Option<batch::Place> = if shape.is_large() { Some(&at) } else { None };
+        Ok(batch::run(out, *threads, place, &work, &mut |done| callbacks.poll(done, total))?)
     }
 }
 

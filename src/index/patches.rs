@@ -103,11 +103,15 @@ impl Direction {
 }
 
 impl SurfaceIndex {
-    /// Builds the index; `poll` is asked now and then whether to stop.
+    /// Builds the index for the vector instructions of `level`; `poll` is asked now and then whether to stop.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`], [`Error::Cancelled`].
-    pub fn new(surface: &Surface, poll: &mut dyn FnMut() -> bool) -> Result<Self, Error> {
+    pub fn new(
+        surface: &Surface,
+        level: Level,
+        poll: &mut dyn FnMut() -> bool,
+    ) -> Result<Self, Error> {
         let rational = surface.is_rational();
         let [parts_u, parts_v] = if rational { parts(surface) } else { [1, 1] };
         let u = Direction::new(surface.knots_u(), parts_u);
@@ -117,7 +121,6 @@ impl SurfaceIndex {
         let (count, width) = (rows * columns, degree.count() * if rational { 4 } else { 3 });
         let tensor_width = tensor_len(degree, rational);
         let keep_tensors = count * tensor_width * 8 <= MAX_TENSOR_BYTES || tensor_width <= 1125;
-        let level = Level::detect();
         let mut index = Self {
             frame: Frame::new(surface.poles(), surface.bounding_box()),
             patches: reserved(count)?,

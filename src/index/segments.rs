@@ -52,7 +52,7 @@ impl CurveIndex {
     ///
     /// # Errors
     /// [`Error::OutOfMemory`], [`Error::Cancelled`].
-    pub fn new(curve: &Curve, poll: &mut dyn FnMut() -> bool) -> Result<Self, Error> {
+    pub fn new(curve: &Curve, level: Level, poll: &mut dyn FnMut() -> bool) -> Result<Self, Error> {
         let (p, rational) = (curve.degree(), curve.is_rational());
         let knots = curve.knots();
         let spans = pieces(knots, parts_for(if rational { weight_ratio(curve) } else { 1.0 }));
@@ -69,7 +69,7 @@ impl CurveIndex {
             rational,
             nets: reserved(spans.len() * width)?,
             lanes: reserved(spans.len() * (p + 1))?,
-            grid: Grid::new(degree, rational, Level::detect()),
+            grid: Grid::new(degree, rational, level),
             tensors: reserved(if keep_tensors { spans.len() * tensor_width } else { 0 })?,
         };
         let mut boxes = reserved(spans.len())?;

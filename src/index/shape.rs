@@ -5,6 +5,7 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 use super::{CurveIndex, SurfaceIndex};
 use crate::curve::Curve;
 use crate::error::Error;
+use crate::simd::Level;
 use crate::surface::Surface;
 
 /// Asked now and then during long work: true means stop.
@@ -20,6 +21,10 @@ struct Once<T> {
 impl<T> Once<T> {
     fn new() -> Self {
         Self { value: OnceLock::new(), building: Mutex::new(()) }
+    }
+
+    fn get(&self) -> Option<&T> {
+        self.value.get()
     }
 
     fn get_or_build(&self, build: impl FnOnce() -> Result<T, Error>) -> Result<&T, Error> {
@@ -39,6 +44,7 @@ impl<T> Once<T> {
 #[derive(Debug)]
 pub struct IndexedCurve {
     curve: Curve,
+    level: Level,
     index: Once<CurveIndex>,
 }
 
@@ -46,13 +52,19 @@ pub struct IndexedCurve {
 #[derive(Debug)]
 pub struct IndexedSurface {
     surface: Surface,
+    level: Level,
     index: Once<SurfaceIndex>,
 }
 
 impl IndexedCurve {
     /// Takes the curve; the index is built on first use.
     pub fn new(curve: Curve) -> Self {
-        Self { curve, index: Once::new() }
+        Self::at_level(curve, Level::detect())
+    }
+
+    /// As [`Self::new`], with the vector instructions of a level: answers have the same bits at each.
+    pub fn at_level(curve: Curve, level: Level) -> Self {
+        Self { curve, level, index: Once::new() }
     }
 
     /// The curve.
@@ -65,7 +77,12 @@ impl IndexedCurve {
     /// # Errors
     /// [`Error::OutOfMemory`]; [`Error::Cancelled`] when `poll` said so.
     pub fn index(&self, poll: Poll) -> Result<&CurveIndex, Error> {
-        self.index.get_or_build(|| CurveIndex::new(&self.curve, poll))
+        self.index.get_or_build(|| CurveIndex::new(&self.curve, self.level, poll))
+    }
+
+    /// Bytes of the index, 0 before it is built.
+    pub fn index_bytes(&self) -> usize {
+        self.index.get().map_or(0, CurveIndex::memory)
     }
 
     /// Builds the index if it was not there. Errors as [`Self::index`].
@@ -80,7 +97,12 @@ impl IndexedCurve {
 impl IndexedSurface {
     /// Takes the surface; the index is built on first use.
     pub fn new(surface: Surface) -> Self {
-        Self { surface, index: Once::new() }
+        Self::at_level(surface, Level::detect())
+    }
+
+    /// As [`Self::new`], with the vector instructions of a level: answers have the same bits at each.
+    pub fn at_level(surface: Surface, level: Level) -> Self {
+        Self { surface, level, index: Once::new() }
     }
 
     /// The surface.
@@ -93,7 +115,12 @@ impl IndexedSurface {
     /// # Errors
     /// [`Error::OutOfMemory`]; [`Error::Cancelled`] when `poll` said so.
     pub fn index(&self, poll: Poll) -> Result<&SurfaceIndex, Error> {
-        self.index.get_or_build(|| SurfaceIndex::new(&self.surface, poll))
+        self.index.get_or_build(|| SurfaceIndex::new(&self.surface, self.level, poll))
+    }
+
+    /// Bytes of the index, 0 before it is built.
+    pub fn index_bytes(&self) -> usize {
+        self.index.get().map_or(0, SurfaceIndex::memory)
     }
 
     /// Builds the index if it was not there.
