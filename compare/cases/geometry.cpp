@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <random>
 #include <sstream>
 #include <stdexcept>
 
@@ -75,6 +76,20 @@ std::vector<Query> spread(const std::vector<Query> &all, size_t most) {
         for (size_t k = 0; k < count; k++) {
             chosen.push_back(list[k * list.size() / count]);
         }
+    }
+    return chosen;
+}
+
+std::vector<Query> sample(std::vector<Query> all, size_t most) {
+    std::stable_sort(all.begin(), all.end(), [](const Query &a, const Query &b) { return a.kind < b.kind; });
+    std::vector<Query> chosen;
+    const size_t count = std::min(most, all.size());
+    for (size_t k = 0; k < count; k++) {
+        chosen.push_back(all[k * all.size() / count]);
+    }
+    std::mt19937 random(1);
+    for (size_t k = count; k > 1; k--) {
+        std::swap(chosen[k - 1], chosen[random() % k]);
     }
     return chosen;
 }

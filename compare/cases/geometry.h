@@ -44,5 +44,7 @@ Geometry read_geometry(const std::string &path);
 std::vector<Query> read_queries(const std::string &path);
 // At most `most` queries, spread evenly over the classes and within each.
 std::vector<Query> spread(const std::vector<Query> &all, size_t most);
+// At most `most` queries, each class with its share of all, in a fixed mixed order.
+std::vector<Query> sample(std::vector<Query> all, size_t most);
 
 #endif

@@ -1,0 +1,34 @@
+// Time in nanoseconds, and what asking for it costs. SPDX-License-Identifier: MIT OR Apache-2.0
+#ifndef BENCH_CLOCK_H
+#define BENCH_CLOCK_H
+
+#include <algorithm>
+#include <ctime>
+#include <vector>
+
+inline double now() {
+    timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return 1e9 * double(t.tv_sec) + double(t.tv_nsec);
+}
+
+// The median of two calls without anything between: subtracted from each time of a single query.
+inline double clock_cost() {
+    std::vector<double> costs(2001);
+    for (double &cost : costs) {
+        const double start = now();
+        cost = now() - start;
+    }
+    std::nth_element(costs.begin(), costs.begin() + 1000, costs.end());
+    return costs[1000];
+}
+
+// The time of `work` alone.
+template <class Work>
+double time_of(double cost, Work work) {
+    const double start = now();
+    work();
+    return std::max(now() - start - cost, 1.0);
+}
+
+#endif
