@@ -6,11 +6,13 @@
 #include <ctime>
 #include <vector>
 
-inline double now() {
+inline double read_clock(clockid_t clock) {
     timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
+    clock_gettime(clock, &t);
     return 1e9 * double(t.tv_sec) + double(t.tv_nsec);
 }
+
+inline double now() { return read_clock(CLOCK_MONOTONIC); }
 
 // The median of two calls without anything between: subtracted from each time of a single query.
 inline double clock_cost() {
@@ -21,6 +23,16 @@ inline double clock_cost() {
     }
     std::nth_element(costs.begin(), costs.begin() + 1000, costs.end());
     return costs[1000];
+}
+
+// Of a batch: the processor time of the calling thread, when that does all the work, so that a busy machine is no part
+// of it; else the time that passes.
+template <class Work>
+double batch_time_of(unsigned threads, Work work) {
+    const clockid_t clock = threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC;
+    const double start = read_clock(clock);
+    work();
+    return read_clock(clock) - start;
 }
 
 // The time of `work` alone.

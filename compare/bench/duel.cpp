@@ -111,7 +111,8 @@ double batch_time(const Case &c, const Shape &shape, uint32_t threads, bool hint
     options.hint_stride = sizeof(Pair);
     double least = std::numeric_limits<double>::infinity();
     for (int repeat = 0; repeat < REPEATS; repeat++) {
-        least = std::min(least, time_of(0, [&] { shape.closest(points.data(), feet.size(), &options, feet.data()); }));
+        const auto ask = [&] { shape.closest(points.data(), feet.size(), &options, feet.data()); };
+        least = std::min(least, batch_time_of(threads, ask));
     }
     return least / double(feet.size());
 }

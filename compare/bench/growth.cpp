@@ -67,7 +67,7 @@ void round_of(Subject &s, double cost) {
     const fpt_query_options options = plain_options();
     std::vector<fpt_foot_point> feet(s.count());
     const auto ask = [&] { s.shape->closest(s.points.data(), feet.size(), &options, feet.data()); };
-    s.batch = std::min(s.batch, time_of(0, ask) / double(feet.size()));
+    s.batch = std::min(s.batch, batch_time_of(1, ask) / double(feet.size()));
 }
 
 double share_of(std::vector<double> values, double share) {
@@ -132,7 +132,7 @@ void grow_batch(std::FILE *file, bool quick) {
             for (size_t k = 0; k < least.size(); k++) {
                 const size_t size = sizes[k / 2];
                 const fpt_query_options options = plain_options(uint32_t(1 + k % 2));
-                const double time = time_of(0, [&] {
+                const double time = batch_time_of(options.threads, [&] {
                     for (size_t i = 0; i < total; i += size) {
                         s.shape->closest(&s.points[3 * i], size, &options, &feet[i]);
                     }

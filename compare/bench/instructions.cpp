@@ -1,5 +1,5 @@
 // A fixed set of queries for callgrind: what runs inside of counted() is counted, see instructions.py.
-//   bench_instructions KIND CASE_DIR...     prints the number of queries
+//   bench_instructions KIND CASE_DIR...     prints the number of queries of each case that it asks
 // SPDX-License-Identifier: MIT OR Apache-2.0
 #include "ours.h"
 
@@ -24,7 +24,7 @@ constexpr Kind KINDS[] = {
 
 } // namespace
 
-// Named for callgrind's --toggle-collect.
+// Called once for a case. Named for callgrind's --toggle-collect and --dump-after.
 extern "C" __attribute__((noinline)) void counted(const Shape &shape, const double *points, size_t count, size_t each,
                                                   fpt_query_options *options, fpt_foot_point *feet) {
     const double *hints = options->hints;
@@ -45,7 +45,6 @@ int main(int argc, char **argv) {
         }
         return argc == 1 ? 0 : 2;
     }
-    size_t total = 0;
     for (int a = 2; a < argc; a++) {
         const std::string folder = argv[a];
         const Geometry g = read_geometry(folder + "/geometry.txt");
@@ -65,8 +64,7 @@ int main(int argc, char **argv) {
         options.hints = kind->hint > 0.0 ? hints.data() : nullptr;
         options.hint_stride = sizeof(Pair);
         counted(shape, points.data(), count, kind->batch ? count : 1, &options, feet.data());
-        total += count;
+        std::printf("%zu\n", count);
     }
-    std::printf("%zu\n", total);
     return 0;
 }

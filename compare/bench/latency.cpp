@@ -39,7 +39,7 @@ struct Batch {
         double least = std::numeric_limits<double>::infinity();
         for (int repeat = 0; repeat < REPEATS; repeat++) {
             const auto ask = [&] { shape.closest(points.data(), feet.size(), &options, feet.data()); };
-            least = std::min(least, time_of(0, ask));
+            least = std::min(least, batch_time_of(threads, ask));
         }
         return least / double(feet.size());
     }
