@@ -110,6 +110,7 @@ class LatencyCase:
     batch: float
     batch_of_two: float
     batch_hinted: float
+    unproven: int
     classes: dict = field(default_factory=dict)
     # (class, (time, time with hint, time with a closer one), excess)
     queries: list = field(default_factory=list)
@@ -124,7 +125,7 @@ def read_latency(path):
         words = line.split(",")
         if words[0] == "case":
             n = [float(w) for w in words[3:]]
-            cases.append(LatencyCase(words[1], int(n[0]), n[1] * 1e6, n[2], n[3] / 1e3, n[4] / 1e3, n[5] / 1e3))
+            cases.append(LatencyCase(words[1], int(n[0]), n[1] * 1e6, n[2], n[3] / 1e3, n[4] / 1e3, n[5] / 1e3, int(n[6])))
         elif words[0] == "class":
             cases[-1].classes[words[1]] = float(words[2]) / 1e3
         else:

@@ -59,13 +59,14 @@ def times(figures):
 
 def growth(figures):
     pieces = {row[0]: row for row in figures.growth["pieces", "surface"]}
-    threads = {row[0]: row[1] for row in figures.growth["threads", "surface"]}
+    threads = {row[0]: row[1:] for row in figures.growth["threads", "surface"]}
     if 1e4 not in pieces or 2 not in threads:
         return []
     large, small = pieces[1e4], pieces[1e2]
     rows = [[f"10,000 patches against 100, {how}", "<= 2 x", ratio(large[k] / small[k]), large[k] <= 2 * small[k]]
             for k, how in ((1, "single calls"), (3, "batch"))]
-    rows.append(at_least("two threads against one", threads[1] / threads[2], 1.8))
+    rows.append(at_least("two threads against one, as it was", threads[1][0] / threads[2][0], 1.8))
+    rows.append(at_least("two threads against one, by processor time", 2 * threads[1][1] / threads[2][1], 1.8))
     rows.append(at_most("set-up per bicubic patch (100 patches, one core)", 1e6 * small[4] / 100, 20.0))
     rows.append(["100,000 patches set up (all cores)", "<= 1 s", f"{pieces[1e5][5]:.2f} s", pieces[1e5][5] <= 1.0])
     return rows
@@ -73,5 +74,5 @@ def growth(figures):
 
 def goals(figures):
     rows = times(figures) + comparisons(figures) + growth(figures)
-    marked = [[name, goal, value, "yes" if met else "**no**"] for name, goal, value, met in rows]
+    marked = [[name, goal, value, "-" if value == "-" else "yes" if met else "**no**"] for name, goal, value, met in rows]
     return ["## Goals", ""] + table(["what", "goal", "measured", "met"], marked)

@@ -1,12 +1,14 @@
 // footpoint alone on all queries of the cases: the time of each call, without a hint and with good ones, and of batches.
 //   bench_latency FILE [--queries N] CASE_DIR...
-// FILE: case,NAME,CURVE OR SURFACE,PIECES,SET-UP s,MEMORY bytes,BATCH ns,BATCH OF TWO THREADS ns,BATCH WITH HINTS ns
+// FILE: case,NAME,CURVE OR SURFACE,PIECES,SET-UP s,MEMORY bytes,BATCH ns,BATCH OF TWO THREADS ns,BATCH WITH HINTS ns,
+//       NOT PROVEN
 //       class,CLASS,BATCH ns (one call for the queries of the class)
 //       query,CLASS,PLAIN ns,HINT 1% ns,HINT 0.1% ns,EXCESS in diagonals
 // SPDX-License-Identifier: MIT OR Apache-2.0
 #include "clock.h"
 #include "ours.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
@@ -29,6 +31,14 @@ struct Batch {
     void add(const Query &query, const Pair &hint) {
         points.insert(points.end(), query.point.begin(), query.point.end());
         hints.insert(hints.end(), hint.begin(), hint.end());
+    }
+    // Answers that say that they are not proven.
+    long unproven(const Shape &shape) const {
+        std::vector<fpt_foot_point> feet(points.size() / 3);
+        const fpt_query_options options = plain_options();
+        shape.closest(points.data(), feet.size(), &options, feet.data());
+        const auto weak = [](const fpt_foot_point &foot) { return (foot.flags & FPT_FOOT_NOT_PROVEN) != 0; };
+        return std::count_if(feet.begin(), feet.end(), weak);
     }
     // Nanoseconds per query, the least of the repeats.
     double time(const Shape &shape, uint32_t threads, bool hinted) const {
@@ -92,9 +102,9 @@ void measure(std::FILE *file, const std::string &folder, size_t most) {
         classes[query.kind].add(query, hint);
     }
     const std::vector<Row> rows = times_of(g, shape, queries);
-    std::fprintf(file, "case,%s,%s,%d,%.4g,%.0f,%.1f,%.1f,%.1f\n", name.c_str(), g.is_curve ? "curve" : "surface",
+    std::fprintf(file, "case,%s,%s,%d,%.4g,%.0f,%.1f,%.1f,%.1f,%ld\n", name.c_str(), g.is_curve ? "curve" : "surface",
                  pieces_of(g), shape.set_up_seconds(), shape.memory(), all.time(shape, 1, false),
-                 all.time(shape, 2, false), all.time(shape, 1, true));
+                 all.time(shape, 2, false), all.time(shape, 1, true), all.unproven(shape));
     for (const auto &[kind, batch] : classes) {
         std::fprintf(file, "class,%s,%.1f\n", kind.c_str(), batch.time(shape, 1, false));
     }

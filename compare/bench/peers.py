@@ -24,11 +24,11 @@ NEAR, WALK = 0.01, 0.001
 CALLS = [
     Call("occt", "occt_value", "OCCT ShapeAnalysis_Surface::ValueOfUV", "OCCT ValueOfUV", "surface"),
     Call("occt", "occt_project", "OCCT GeomAPI_ProjectPointOnSurf (Tree, reused) / OnCurve", "OCCT GeomAPI", BOTH),
-    Call("occt", "occt_edges", "the same and the four boundary curves", "OCCT Tree + edges", "surface"),
+    Call("occt", "occt_edges", "OCCT Tree, reused, and the four boundary curves", "OCCT Tree + edges", "surface"),
     Call("occt", "occt_extpc", "OCCT Extrema_ExtPC and both ends", "OCCT ExtPC + ends", "curve"),
     Call("sisl", "sisl", "SISL s1954 / s1953", "SISL global", BOTH),
     Call("cgal", "mesh", "CGAL AABB tree on a mesh at 1e-3", "mesh lookup", BOTH, gives_place=False),
-    Call("cgal", "mesh_newton", "the same, then Newton", "mesh + Newton", BOTH),
+    Call("cgal", "mesh_newton", "CGAL AABB tree on a mesh at 1e-3, then Newton", "mesh + Newton", BOTH),
     Call("occt", "occt_next", "OCCT NextValueOfUV", "OCCT NextValueOfUV", "surface", NEAR),
     Call("occt", "occt_next", "OCCT NextValueOfUV", "OCCT NextValueOfUV", "surface", WALK),
     Call("sisl", "sisl_hint", "SISL s1775 / s1774", "SISL with hint", BOTH, NEAR),
@@ -38,7 +38,7 @@ CALLS = [
 # What has to be there for a driver to be built, for the list of what was left out.
 PACKAGES = {"occt": "libocct-modeling-algorithms-dev", "sisl": "libsisl-dev", "cgal": "libcgal-dev"}
 
-# What a call is for: a title and the beginning of the names of its cases.
+# Groups of cases: a title and the beginning of their names.
 GROUPS = [
     ("real surfaces (from public CAD files)", "real_s"),
     ("real curves (from public CAD files)", "real_c"),

@@ -14,6 +14,13 @@ def about(drawing, figures):
                  anchor="end", colour=PALE)
 
 
+def shown(figures):
+    """The groups that pictures show: surfaces and curves, real ones if there are any."""
+    if figures.ours("real_s"):
+        return [("real_s", "Surfaces of public CAD files"), ("real_c", "Curves of public CAD files")]
+    return [("syn_s", "Synthetic surfaces"), ("syn_c", "Synthetic curves")]
+
+
 def entries_of(figures, prefix):
     """(time, share wrong, label, colour, hollow) of every call on a group."""
     duels = [(c, figures.duel(c, prefix)) for c in peers.CALLS if c.hint != peers.WALK]
@@ -34,7 +41,7 @@ def entries_of(figures, prefix):
 
 def time_against_wrong(figures, out):
     picture = Drawing(1040, 500, "Time against wrong answers")
-    for k, (prefix, title) in enumerate((("real_s", "Surfaces of public CAD files"), ("real_c", "Curves of public CAD files"))):
+    for k, (prefix, title) in enumerate(shown(figures)):
         entries = entries_of(figures, prefix)
         if not entries:
             continue
@@ -83,8 +90,8 @@ def latency(figures, out):
 
 
 def by_class(figures, out):
-    prefix = "real_s"
-    picture = Drawing(910, 460, "Time by where the query lies: surfaces of public CAD files")
+    prefix, title = shown(figures)[0]
+    picture = Drawing(910, 460, f"Time by where the query lies: {title[0].lower()}{title[1:]}")
     names = peers.CLASSES
     x = Axis(-0.5, len(names) - 0.5, 80, 640, log=False)
     y = Axis(0.1, 1e4, 385, 50)
@@ -145,7 +152,7 @@ def growth(figures, out):
 
 def batch(figures, out):
     picture = Drawing(760, 420, "Batches: queries per call and threads (100 patches or segments)")
-    x, y = Axis(1, 1e5, 80, 720), Axis(0.1, 100, 345, 50)
+    x, y = Axis(1, 1e5, 80, 720), Axis(0.1, 10, 345, 50)
     picture.frame(x, y, "queries per call", "time of a query, us")
     entries = []
     for kind, colour in (("surface", SERIES[0]), ("curve", SERIES[1])):

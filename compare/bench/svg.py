@@ -50,7 +50,9 @@ class Axis:
 
 class Drawing:
     def __init__(self, width, height, title):
-        self.width, self.height, self.parts, self.taken = width, height, [], []
+        self.width, self.height = width, height
+        # What is drawn; the boxes of dots and texts, and of texts alone.
+        self.parts, self.taken, self.texts = [], [], []
         self.text(width / 2, 24, title, size=16, anchor="middle", weight="bold")
 
     def add(self, part):
@@ -66,7 +68,8 @@ class Drawing:
                  f"font-weight='{weight}'{turned}>{escaped(text)}</text>")
         wide = LETTER * size * len(str(text))
         left = x - wide * {"start": 0, "middle": 0.5, "end": 1}[anchor]
-        self.taken.append((left, y - 0.8 * size, left + wide, y + 0.2 * size))
+        self.texts.append((left, y - 0.8 * size, left + wide, y + 0.2 * size))
+        self.taken.append(self.texts[-1])
 
     def dot(self, x, y, colour, hollow=False, size=5.0):
         fill = "white" if hollow else colour
@@ -102,9 +105,10 @@ class Drawing:
                 middle_x = x + dx * (far + (wide / 2 if dx else 0))
                 middle_y = y + dy * (far + (3 if dy else 0))
                 box = (middle_x - wide / 2 - 2, middle_y - size / 2 - 2, middle_x + wide / 2 + 2, middle_y + size / 2 + 2)
-                if self.free(box, bounds):
+                end = (middle_x - dx * wide / 2, middle_y - dy * size / 2)
+                if self.free(box, bounds) and self.clear(x, y, *end):
                     if far > 16:
-                        self.line(x, y, middle_x - dx * wide / 2, middle_y - dy * size / 2, colour, 0.7)
+                        self.line(x, y, *end, colour, 0.7)
                     self.text(middle_x, middle_y + 0.35 * size, text, size=size, anchor="middle", colour=colour,
                               weight="bold" if colour == OURS else "normal")
                     return
@@ -113,6 +117,11 @@ class Drawing:
         inside = box[0] >= bounds[0] and box[1] >= bounds[1] and box[2] <= bounds[2] and box[3] <= bounds[3]
         apart = lambda other: box[2] < other[0] or box[0] > other[2] or box[3] < other[1] or box[1] > other[3]
         return inside and all(apart(other) for other in self.taken)
+
+    def clear(self, x1, y1, x2, y2):
+        """Whether a line passes no text."""
+        points = [(x1 + (x2 - x1) * k / 20, y1 + (y2 - y1) * k / 20) for k in range(20)]
+        return not any(box[0] <= x <= box[2] and box[1] <= y <= box[3] for x, y in points for box in self.texts)
 
     def legend(self, x, y, entries):
         """Lines of (text, colour, dash)."""

@@ -46,6 +46,7 @@ def header(figures):
         "a batch can be compared with. *Times slower*: median over the cases of their median over ours, and of their mean over "
         "our batch.", "",
     ]
+    lines += [f"Not proven: {sum(c.unproven for c in figures.latency):,} of the {sum(len(c.queries) for c in figures.latency):,} answers of footpoint.", ""]
     if a["left_out"]:
         lines += ["**Left out, because it is not there:** " + ", ".join(a["left_out"]) + ".", ""]
     failed = [f"{r['label']} ({r['code']})" for r in a["runs"] if r["code"] != 0]
@@ -159,5 +160,8 @@ def growth(figures):
     rows = []
     for kind in ("surface", "curve"):
         threads = figures.growth["threads", kind]
-        rows += [[kind, f"{r[0]:.0f}", show(r[1] / 1e3), ratio(threads[0][1] / r[1])] for r in threads]
-    return lines + table(["100 pieces, one large batch", "threads", "per query", "times faster than one"], rows)
+        rows += [[kind, f"{r[0]:.0f}", show(r[1] / 1e3), ratio(threads[0][1] / r[1]), show(r[2] / 1e3), ratio(r[0] * threads[0][2] / r[2])]
+                 for r in threads]
+    lines += ["Threads of a busy machine wait for cores; the last column is what the processor time would allow on an idle one.", ""]
+    return lines + table(["100 pieces, one large batch", "threads", "per query", "times faster than one", "processor time of all threads per query",
+                          "at most, were all cores free"], rows)
