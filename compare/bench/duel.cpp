@@ -16,10 +16,10 @@
 namespace {
 
 // So many queries in turn; each is asked up to REPEATS times, but only until a turn has taken SLOW nanoseconds. The least
-// time counts; where it is LONG, it is the processor's from the second time on.
+// time counts.
 constexpr size_t TURN = 32;
 constexpr int REPEATS = 4;
-constexpr double SLOW = 4e7, LONG = 5e4;
+constexpr double SLOW = 4e7;
 // Processes for one case: after so many crashes and hangs the rest is left out.
 constexpr int TRIES = 6;
 
@@ -87,12 +87,12 @@ void turn(const Case &c, const Shape &shape, Peer &theirs, Peer &ours, const std
         for (size_t k = 0; k < chunk.size(); k++) {
             board.asked = chunk[k];
             board.beat++;
-            const auto work = [&] { answers[k] = ask(theirs, c, chunk[k]); };
-            const bool is_long = repeat > 0 && times[k] > LONG;
-            times[k] = std::min(times[k], is_long ? batch_time_of(1, work) : time_of(cost, work));
+            const auto call = [&] { answers[k] = ask(theirs, c, chunk[k]); };
+            times[k] = std::min(times[k], call_time_of(cost, times[k], call));
         }
         for (size_t k = 0; k < chunk.size(); k++) {
-            our_times[k] = std::min(our_times[k], time_of(cost, [&] { our_answers[k] = ask(ours, c, chunk[k]); }));
+            const auto call = [&] { our_answers[k] = ask(ours, c, chunk[k]); };
+            our_times[k] = std::min(our_times[k], call_time_of(cost, our_times[k], call));
         }
     }
     for (size_t k = 0; k < chunk.size(); k++) {

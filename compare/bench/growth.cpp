@@ -62,7 +62,7 @@ void round_of(Subject &s, double cost) {
     Ours ours(*s.shape, false);
     for (size_t i = 0; i < s.count(); i++) {
         const Vec point = {s.points[3 * i], s.points[3 * i + 1], s.points[3 * i + 2]};
-        s.times[i] = std::min(s.times[i], time_of(cost, [&] { ours.ask(point, {0, 0}); }));
+        s.times[i] = std::min(s.times[i], call_time_of(cost, s.times[i], [&] { ours.ask(point, {0, 0}); }));
     }
     const fpt_query_options options = plain_options();
     std::vector<fpt_foot_point> feet(s.count());

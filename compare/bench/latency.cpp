@@ -78,8 +78,10 @@ std::vector<Row> times_of(const Geometry &g, const Shape &shape, const std::vect
                 for (size_t i = first; i < end; i++) {
                     const Pair hint = hint_beside(g, queries[i], HINTS[kind]);
                     Answer answer;
-                    const double time = time_of(cost, [&] { answer = ours.ask(queries[i].point, hint); });
-                    rows[i].time[kind] = std::min(repeat == 0 ? endless : rows[i].time[kind], time);
+                    double &least = rows[i].time[kind];
+                    least = repeat == 0 ? endless : least;
+                    const auto call = [&] { answer = ours.ask(queries[i].point, hint); };
+                    least = std::min(least, call_time_of(cost, least, call));
                     const double excess = answer.found ? shape.excess(answer, queries[i]) : endless;
                     rows[i].excess = std::max(rows[i].excess, excess);
                 }

@@ -1,5 +1,6 @@
 """Charts as SVG, in one style: axes with units, lines, scatter with labels that do not overlap."""
 
+import itertools
 import math
 
 INK, PALE, GRID = "#1f2933", "#616e7c", "#e4e7eb"
@@ -100,18 +101,19 @@ class Drawing:
     def label(self, x, y, text, colour, bounds, size=11.5):
         """The text beside a dot, where neither dots nor other labels nor `bounds` are in the way."""
         wide = LETTER * size * len(text) * (1.07 if colour == OURS else 1)
-        for far in (9, 16, 26, 38, 52, 68, 86, 106):
-            for dx, dy in ((1, 0), (-1, 0), (0, -1), (0, 1), (1, -1), (-1, -1), (1, 1), (-1, 1)):
-                middle_x = x + dx * (far + (wide / 2 if dx else 0))
-                middle_y = y + dy * (far + (3 if dy else 0))
-                box = (middle_x - wide / 2 - 2, middle_y - size / 2 - 2, middle_x + wide / 2 + 2, middle_y + size / 2 + 2)
-                end = (middle_x - dx * wide / 2, middle_y - dy * size / 2)
-                if self.free(box, bounds) and self.clear(x, y, *end):
-                    if far > 16:
-                        self.line(x, y, *end, colour, 0.7)
-                    self.text(middle_x, middle_y + 0.35 * size, text, size=size, anchor="middle", colour=colour,
-                              weight="bold" if colour == OURS else "normal")
-                    return
+        for far, degrees in itertools.product((9, 16, 26, 38, 52, 68, 86, 106), (0, 180, 270, 90, 315, 225, 45, 135, 340, 200, 20, 160)):
+            dx, dy = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+            beside = 0 if abs(dx) < 0.3 else math.copysign(1, dx)
+            over = 0 if beside else math.copysign(1, dy)
+            end = (x + far * dx, y + far * dy)
+            middle = (end[0] + beside * wide / 2, end[1] + over * size / 2)
+            box = (middle[0] - wide / 2 - 2, middle[1] - size / 2 - 2, middle[0] + wide / 2 + 2, middle[1] + size / 2 + 2)
+            if self.free(box, bounds) and self.clear(x, y, *end):
+                if far > 16:
+                    self.line(x, y, *end, colour, 0.7)
+                self.text(middle[0], middle[1] + 0.35 * size, text, size=size, anchor="middle", colour=colour,
+                          weight="bold" if colour == OURS else "normal")
+                return
 
     def free(self, box, bounds):
         inside = box[0] >= bounds[0] and box[1] >= bounds[1] and box[2] <= bounds[2] and box[3] <= bounds[3]

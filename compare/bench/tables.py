@@ -40,7 +40,7 @@ def header(figures):
         "", f"{versions}.", "",
         f"Cases: {counts}, from `{a['cases']}`; at most {a['queries']} queries a case for other libraries, each class in "
         "proportion; all of them where footpoint runs alone.", "",
-        f"Times are microseconds on one thread: of single calls the time that passes, of batches the processor time; with two threads the time that passes. *Wrong*: no answer, or farther than the proven distance by more than {WRONG:g} of "
+        f"Times are microseconds on one thread: of single calls the time that passes (of those beyond 50 us the processor time, because a busy machine interrupts them), of batches the processor time; with two threads the time that passes. *Wrong*: no answer, or farther than the proven distance by more than {WRONG:g} of "
         "the box diagonal. footpoint runs in turns of 32 queries with the other library in one process; each query is asked up to four times and the least time "
         "counts. *Median*: median over the cases of a case's median; *mean*: median over the cases of a case's mean, which is what "
         "a batch can be compared with. *Times slower*: median over the cases of their median over ours, and of their mean over "

@@ -18,7 +18,7 @@ namespace {
     setrlimit(RLIMIT_AS, &memory);
     setrlimit(RLIMIT_CORE, &no_core);
     // Should the parent go away, the child ends by itself.
-    alarm(unsigned(limits.seconds + 21 * limits.silence_seconds) + 10);
+    alarm(unsigned(10 * (limits.seconds + 21 * limits.silence_seconds)) + 10);
     const int nowhere = open("/dev/null", O_WRONLY);
     dup2(nowhere, STDOUT_FILENO);
     dup2(nowhere, STDERR_FILENO);
@@ -38,14 +38,18 @@ End watched(const std::function<void()> &work, const std::atomic<unsigned long> 
     if (process == 0) {
         run_child(work, limits);
     }
-    double begun = now(), heard = begun;
+    clockid_t processor;
+    const bool known = clock_getcpuclockid(process, &processor) == 0;
+    const double start = now();
+    const auto spent = [&] { return std::max(known ? read_clock(processor) : 0.0, 0.1 * (now() - start)); };
+    double begun = 0.0, heard = 0.0;
     for (unsigned long last = at_first;;) {
         int status = 0;
         if (waitpid(process, &status, WNOHANG) == process) {
             return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? End::DONE : End::CRASHED;
         }
         usleep(2000);
-        const double time = now();
+        const double time = spent();
         if (beat != last) {
             begun = last == at_first ? time : begun;
             last = beat;

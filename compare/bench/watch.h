@@ -8,10 +8,11 @@
 
 enum class End { DONE, CRASHED, HUNG, LATE };
 
+// Of processor time, so that a busy machine is no part of it; a process that waits for ever ends after ten times as long.
 struct Limits {
     // Without a change of the beat; until the first one twenty times as long.
-    double silence_seconds = 1;
-    // Of the process, from the first beat on.
+    double silence_seconds = 1.5;
+    // From the first beat on.
     double seconds = 4;
     size_t memory_bytes = size_t(6) << 30;
 };
