@@ -59,8 +59,8 @@ def time_against_wrong(figures, out):
             picture.dot(px, py, colour, hollow, 6.5 if colour == OURS else 5)
         for px, py, label, colour, _ in sorted(places, key=lambda p: p[3] != OURS):
             picture.label(px, py, label, colour, (left + 2, 62, left + 440, zero + 34))
-    picture.text(12, picture.height - 8, "Hollow: started from a hint 1 % of the domain away. The mesh (1e-3 of the diagonal) is counted by its distance. "
-                 "Wrong: no answer or more than 1e-7 of the diagonal too far.", size=10, colour=PALE)
+    picture.text(12, picture.height - 8, "Hollow: started from a hint 1 % of the domain away. "
+                 "The mesh (1e-3 of the diagonal) is counted by its distance. Wrong: no answer or more than 1e-7 of the diagonal too far.", size=10, colour=PALE)
     picture.text(picture.width - 12, 24, figures.about["date"][:10], size=10, anchor="end", colour=PALE)
     picture.write(out / "time_wrong.svg")
 
@@ -152,7 +152,7 @@ def growth(figures, out):
 
 def batch(figures, out):
     picture = Drawing(760, 420, "Batches: queries per call and threads (100 patches or segments)")
-    x, y = Axis(1, 1e5, 80, 720), Axis(0.1, 10, 345, 50)
+    x, y = Axis(1, 1e5, 80, 720), Axis(0.1, 100, 345, 50)
     picture.frame(x, y, "queries per call", "time of a query, us")
     entries = []
     for kind, colour in (("surface", SERIES[0]), ("curve", SERIES[1])):

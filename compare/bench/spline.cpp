@@ -3,6 +3,43 @@
 
 #include <algorithm>
 
+namespace {
+
+// Derivatives of the functions of degree q from those of the degree below: q * (N[r-1] / length - N[r] / next length).
+void lift(const std::vector<double> &knots, int span, int q, const double *below, double *derivative) {
+    double from_left = 0.0;
+    for (int r = 0; r <= q; r++) {
+        const size_t first = size_t(span - q + r + 1);
+        const double next = r < q ? q * below[r] / (knots[first + size_t(q)] - knots[first]) : 0.0;
+        derivative[r] = from_left - next;
+        from_left = next;
+    }
+}
+
+// Numbers of derivatives up to an order.
+constexpr int COUNT[3] = {1, 3, 6};
+
+// Places from homogeneous ones, in the order of Derivatives.
+Derivatives projected(const double a[6][4], int order) {
+    Derivatives s{};
+    const double w = a[0][3];
+    for (size_t c = 0; c < 3; c++) {
+        s[0][c] = a[0][c] / w;
+        if (order >= 1) {
+            s[1][c] = (a[1][c] - a[1][3] * s[0][c]) / w;
+            s[2][c] = (a[2][c] - a[2][3] * s[0][c]) / w;
+        }
+        if (order >= 2) {
+            s[3][c] = (a[3][c] - 2 * a[1][3] * s[1][c] - a[3][3] * s[0][c]) / w;
+            s[4][c] = (a[4][c] - a[1][3] * s[2][c] - a[2][3] * s[1][c] - a[4][3] * s[0][c]) / w;
+            s[5][c] = (a[5][c] - 2 * a[2][3] * s[2][c] - a[5][3] * s[0][c]) / w;
+        }
+    }
+    return s;
+}
+
+} // namespace
+
 Spline::Spline(const Geometry &geometry) : geometry_(geometry) {
     Vec least = {1e300, 1e300, 1e300}, most = {-1e300, -1e300, -1e300};
     for (size_t i = 0; i < geometry.weights.size(); i++) {
@@ -48,26 +85,16 @@ size_t Spline::basis(int k, double t, int order, Basis &out) const {
         }
         row[j] = saved;
     }
-    // A derivative of degree q from the row below it: q * (N[r-1] / length - N[r] / next length).
-    const auto lift = [&](const double *below, int q, double *derivative) {
-        double from_left = 0.0;
-        for (int r = 0; r <= q; r++) {
-            const size_t first = size_t(span - q + r + 1);
-            const double next = r < q ? q * below[r] / (knots[first + size_t(q)] - knots[first]) : 0.0;
-            derivative[r] = from_left - next;
-            from_left = next;
-        }
-    };
     std::copy(row, row + p + 1, out[0].begin());
     if (order >= 1) {
-        lift(one, p, out[1].data());
+        lift(knots, span, p, one, out[1].data());
     }
     if (order >= 2) {
         double slope[32] = {0};
         if (p >= 2) {
-            lift(two, p - 1, slope);
+            lift(knots, span, p - 1, two, slope);
         }
-        lift(slope, p, out[2].data());
+        lift(knots, span, p, slope, out[2].data());
     }
     return size_t(span - p);
 }
@@ -84,7 +111,7 @@ Derivatives Spline::derivatives(const Pair &at, int order) const {
         q = size_t(geometry_.degree[1]);
     }
     // In the order of Derivatives: which derivative in u and in v.
-    constexpr int DU[6] = {0, 1, 0, 2, 1, 0}, DV[6] = {0, 0, 1, 0, 1, 2}, COUNT[3] = {1, 3, 6};
+    constexpr int DU[6] = {0, 1, 0, 2, 1, 0}, DV[6] = {0, 0, 1, 0, 1, 2};
     double a[6][4] = {{0}};
     for (size_t i = 0; i <= size_t(geometry_.degree[0]); i++) {
         double part[3][4] = {{0}};
@@ -102,19 +129,5 @@ Derivatives Spline::derivatives(const Pair &at, int order) const {
             }
         }
     }
-    Derivatives s{};
-    const double w = a[0][3];
-    for (size_t c = 0; c < 3; c++) {
-        s[0][c] = a[0][c] / w;
-        if (order >= 1) {
-            s[1][c] = (a[1][c] - a[1][3] * s[0][c]) / w;
-            s[2][c] = (a[2][c] - a[2][3] * s[0][c]) / w;
-        }
-        if (order >= 2) {
-            s[3][c] = (a[3][c] - 2 * a[1][3] * s[1][c] - a[3][3] * s[0][c]) / w;
-            s[4][c] = (a[4][c] - a[1][3] * s[2][c] - a[2][3] * s[1][c] - a[4][3] * s[0][c]) / w;
-            s[5][c] = (a[5][c] - 2 * a[2][3] * s[2][c] - a[5][3] * s[0][c]) / w;
-        }
-    }
-    return s;
+    return projected(a, order);
 }

@@ -40,13 +40,15 @@ def header(figures):
         "", f"{versions}.", "",
         f"Cases: {counts}, from `{a['cases']}`; at most {a['queries']} queries a case for other libraries, each class in "
         "proportion; all of them where footpoint runs alone.", "",
-        f"Times are microseconds on one thread: of single calls the time that passes (of those beyond 50 us the processor time, because a busy machine interrupts them), of batches the processor time; with two threads the time that passes. *Wrong*: no answer, or farther than the proven distance by more than {WRONG:g} of "
-        "the box diagonal. footpoint runs in turns of 32 queries with the other library in one process; each query is asked up to four times and the least time "
-        "counts. *Median*: median over the cases of a case's median; *mean*: median over the cases of a case's mean, which is what "
+        "Times are microseconds on one thread: of single calls the time that passes (of those beyond 50 us the processor time, "
+        "because a busy machine interrupts them), of batches the processor time; with two threads the time that passes. "
+        f"*Wrong*: no answer, or farther than the proven distance by more than {WRONG:g} of the box diagonal. footpoint runs in turns "
+        "of 32 queries with the other library in one process; each query is asked up to four times and the least time counts. *Median*: median over the cases of a case's median; *mean*: median over the cases of a case's mean, which is what "
         "a batch can be compared with. *Times slower*: median over the cases of their median over ours, and of their mean over "
         "our batch.", "",
     ]
-    lines += [f"Not proven: {sum(c.unproven for c in figures.latency):,} of the {sum(len(c.queries) for c in figures.latency):,} answers of footpoint.", ""]
+    unproven, answers = sum(c.unproven for c in figures.latency), sum(len(c.queries) for c in figures.latency)
+    lines += [f"Not proven: {unproven:,} of the {answers:,} answers of footpoint.", ""]
     if a["left_out"]:
         lines += ["**Left out, because it is not there:** " + ", ".join(a["left_out"]) + ".", ""]
     failed = [f"{r['label']} ({r['code']})" for r in a["runs"] if r["code"] != 0]
@@ -109,7 +111,7 @@ def mesh_error(figures):
 
 
 def classes(figures):
-    lines = ["## Time per class", "", "Real surfaces and real curves; median over the cases of the class's median (single calls) or mean (one batch of "
+    lines = ["## Time per class", "", "Median over the cases of the class's median (single calls) or mean (one batch of "
              "the class).", ""]
     for prefix in ("real_s", "real_c", "syn_s", "syn_c"):
         cases = figures.ours(prefix)
