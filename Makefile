@@ -8,7 +8,7 @@ QUERIES ?= 10000000
 THREADS ?= $(JOBS)
 CASES   ?= ../shared/cases
 
-.PHONY: help build test test-rust test-c stress demo compare-occt install clean
+.PHONY: help build test test-rust test-c stress demo compare-occt bench bench-drivers bench-instructions install clean
 
 help:
 	@echo "make build             build the library, shared and static, into $(BUILD)/lib"
@@ -16,6 +16,9 @@ help:
 	@echo "make stress            ask QUERIES=10000000 difficult queries, each checked; also SEED, THREADS"
 	@echo "make demo              run the demonstration (a minute); pictures go to demo-out/"
 	@echo "make compare-occt      compare the extrema with OpenCASCADE 7.6 on the cases in $(CASES) (minutes)"
+	@echo "make bench             time against OpenCASCADE, SISL and CGAL on the cases in $(CASES) (ten minutes); tables and"
+	@echo "                       pictures go to bench-out/; BENCH_QUICK=1 takes a fifth of the cases (two minutes)"
+	@echo "make bench-instructions  count instructions per query with callgrind, beside docs/instructions.csv; RECORD=1 appends"
 	@echo "make install PREFIX=p  install library, headers and pkg-config file (default $(PREFIX))"
 	@echo "make clean             remove what was built"
 	@echo "Tools that are missing (cmake; for the tests also g++ and valgrind) are installed with apt by root;"
@@ -85,9 +88,27 @@ compare-occt: build
 	cmake --build $(BUILD)/compare-occt -j $(JOBS)
 	$(BUILD)/compare-occt/compare_extrema "$(CASES)" --list $(BUILD)/compare-occt/list.txt
 
+# A library that cannot be had is left out, and the tables say so.
+bench-drivers: build
+	$(call need,cmake g++ python3)
+	-$(call need,,$(OCCT_PACKAGES))
+	-$(call need,,libsisl-dev)
+	-$(call need,,libcgal-dev)
+	cmake -S compare/bench -B $(BUILD)/bench -DFOOTPOINT_LIB="$(abspath $(BUILD))/lib"
+	cmake --build $(BUILD)/bench -j $(JOBS)
+
+bench: bench-drivers
+	python3 compare/bench/run.py --build $(BUILD)/bench --out bench-out $(if $(BENCH_QUICK),--quick) \
+	  --cases "$(if $(wildcard $(CASES)/*/geometry.txt),$(CASES),tests/data)"
+	python3 compare/bench/report.py bench-out
+
+bench-instructions: bench-drivers
+	$(call need,valgrind)
+	python3 compare/bench/instructions.py --build $(BUILD)/bench $(if $(RECORD),--write)
+
 install: build
 	cmake --install $(BUILD) --prefix "$(PREFIX)"
 
 clean:
-	rm -rf $(BUILD) demo-out
+	rm -rf $(BUILD) demo-out bench-out
 	$(CARGO) clean

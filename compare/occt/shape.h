@@ -3,41 +3,13 @@
 #ifndef COMPARE_SHAPE_H
 #define COMPARE_SHAPE_H
 
+#include "geometry.h"
+
 #include <footpoint.h>
 
 #include <array>
 #include <string>
 #include <vector>
-
-using Vec = std::array<double, 3>;
-using Pair = std::array<double, 2>;
-
-inline double dot(const Vec &a, const Vec &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-inline Vec minus(const Vec &a, const Vec &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double norm(const Vec &a);
-
-struct Query {
-    Vec point;
-    std::string kind;
-    double distance;
-    int row;
-};
-
-// The numbers of a geometry.txt.
-struct Geometry {
-    bool is_curve = false;
-    int degree[2] = {0, 0};
-    int count[2] = {1, 1};
-    bool rational = false;
-    std::vector<double> knots[2];
-    std::vector<double> poles;
-    std::vector<double> weights;
-};
-
-Geometry read_geometry(const std::string &path);
-std::vector<Query> read_queries(const std::string &path);
-// At most `most` queries, spread evenly over the classes and within each.
-std::vector<Query> spread(const std::vector<Query> &all, size_t most);
 
 // Value and derivatives, with the residual to a point.
 struct Jet {
