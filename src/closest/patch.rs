@@ -108,7 +108,7 @@ pub fn search_patch(sheet: &Sheet, memory: &mut PatchMemory, proof: &mut Proof) 
     memory.reserve(sheet.net.degree, sheet.grid);
     memory.waiting.clear();
     let (degree, slot, start) = (sheet.grid.degree, sheet.grid.slot(), proof.spent);
-    Walk { sheet, memory, proof, degree, slot, start, tilts: (0, 0), last: None }.run()
+    Walk { sheet, memory, proof, degree, slot, start, tilts: (0, 0) }.run()
 }
 
 struct Walk<'a, 'b, 't> {
@@ -122,8 +122,6 @@ struct Walk<'a, 'b, 't> {
     start: u64,
     /// Tilted planes tried, and boxes closed by them.
     tilts: (u64, u64),
-    /// Where the last iteration ended.
-    last: Option<([f64; 2], Jet2)>,
 }
 
 enum Verdict {
@@ -247,7 +245,7 @@ impl Walk<'_, '_, '_> {
             return Verdict::Closed;
         }
         if self.proof.best == f64::INFINITY {
-            let start = self.start(area, self.least_ratio(at).1);
+            let start = self.start(area, at, self.least_ratio(at).1);
             self.iterate(self.sheet.range, start);
             area.error += 8.0 * HALF_ULP * self.proof.target_squared;
             if self.proof.is_trivial() {
@@ -281,11 +279,11 @@ impl Walk<'_, '_, '_> {
         }
         if area.small {
             // What no test can tell here is below rounding.
-            let start = self.start(area, place);
+            let start = self.start(area, at, place);
             self.iterate([area.s[0], area.s[1], area.t[0], area.t[1]], start);
             return Verdict::Closed;
         }
-        self.probe(area, place);
+        self.probe(area, at, place);
         let [along_s, along_t] = slopes.steepest(self.degree);
         // A direction narrower than the grain of doubles cannot be halved: its middle would be one of its ends.
         if can[0] && (along_s >= along_t || !can[1]) { Verdict::HalveS } else { Verdict::HalveT }
@@ -308,29 +306,40 @@ impl Walk<'_, '_, '_> {
         slopes
     }
 
-    /// The Greville abscissae of coefficient `place`.
-    fn abscissa(&self, area: &Area, place: usize) -> [f64; 2] {
+    /// Where the distance is likely least, when coefficient `place` of slot `at` has the least ratio: in each direction the
+    /// vertex of the parabola whose coefficients are the three around it (exact for a parabola of any degree).
+    fn vertex(&self, area: &Area, at: usize, place: usize) -> [f64; 2] {
         let width = self.degree.t + 1;
-        let s = (place / width) as f64 / self.degree.s as f64;
-        let t = (place % width) as f64 / self.degree.t as f64;
+        let (n, c) = (self.n(at), self.c(at));
+        let ratio = |k: usize| if c.is_empty() { n[k] } else { n[k] / c[k] };
+        let along = |degree: usize, i: usize, step: usize| {
+            let middle = i.clamp(1, degree - 1);
+            let k = place + middle * step - i * step;
+            let (a, b, c) = (ratio(k - step), ratio(k), ratio(k + step));
+            let bend = (a - b) + (c - b);
+            let offset = if bend > 0.0 { 0.5 * (a - c) / bend } else { i as f64 - middle as f64 };
+            ((middle as f64 + offset - 0.5) / (degree - 1) as f64).clamp(0.0, 1.0)
+        };
+        let s = along(self.degree.s, place / width, width);
+        let t = along(self.degree.t, place % width, 1);
         [area.s[0] + s * (area.s[1] - area.s[0]), area.t[0] + t * (area.t[1] - area.t[0])]
     }
 
-    /// The best foot when it is inside, the Greville abscissae of coefficient `place` otherwise.
-    fn start(&self, area: &Area, place: usize) -> [f64; 2] {
+    /// The best foot when it is inside, the vertex at coefficient `place` otherwise.
+    fn start(&self, area: &Area, at: usize, place: usize) -> [f64; 2] {
         let inside = |at: [f64; 2]| {
             (area.s[0]..=area.s[1]).contains(&at[0]) && (area.t[0]..=area.t[1]).contains(&at[1])
         };
         match self.proof.site {
             Some(site) if site.piece == self.sheet.piece && inside(site.at) => site.at,
-            _ => self.abscissa(area, place),
+            _ => self.vertex(area, at, place),
         }
     }
 
     /// Looks at one point of an area that is not closed yet, and iterates from it (over the whole patch: a foot on
     /// the border of an area would be none) when it is nearer than the target: a target far too high makes `h` concave (by its term in C), and no test could ever close.
-    fn probe(&mut self, area: &Area, place: usize) {
-        let at = self.abscissa(area, place);
+    fn probe(&mut self, area: &Area, at: usize, place: usize) {
+        let at = self.vertex(area, at, place);
         let d = self.sheet.net.vector(at[0], at[1], self.sheet.query);
         self.proof.evaluations += 1;
         if self.proof.attracts(d) {
@@ -363,7 +372,7 @@ impl Walk<'_, '_, '_> {
         if (0..4).any(inner) || taken >= LONG {
             self.proof.cut_off(Site { piece, at });
         }
-        self.last = Some((at, jet));
+        self.proof.keep(Site { piece, at }, &jet);
         (at, jet)
     }
 
@@ -388,8 +397,9 @@ impl Walk<'_, '_, '_> {
         }
         let mu = self.proof.least_counted();
         let Some(mut m) = self.curvature(at, mu, allowance, slopes) else { return false };
-        let start = self.start(area, place);
-        if let Some((_, jet)) = self.last.filter(|(at, _)| !tying && *at == start) {
+        let start = self.start(area, at, place);
+        let known = self.proof.jet_at(Site { piece: self.sheet.piece, at: start });
+        if let Some(jet) = known.filter(|_| !tying) {
             // The best foot: the iteration that ended there need not be repeated to see that it is the least here.
             if self.first_order(area, start, &jet, m) {
                 if !one_foot {

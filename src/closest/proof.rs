@@ -1,6 +1,7 @@
 //! The state of one query: the best foot so far, what is proven, what was given up.
 
 use crate::bounds::{HALF_ULP, Vector, dot, norm, scaled, sub};
+use crate::jet::Jet2;
 
 /// Places remembered for ties; more of them say no more.
 const RIVALS: usize = 8;
@@ -45,6 +46,8 @@ pub struct Proof<'t> {
     pub site: Option<Site>,
     /// Unit vector from the query to the best foot.
     pub direction: Vector,
+    /// The jet there, when the iteration that found it kept it (surfaces).
+    jet: Option<Jet2>,
     /// Whether the iteration to the best foot ended at the side of a box, or at its step limit: it is to be continued.
     pub is_cut_off: bool,
     /// Local parameter direction in which the best foot is stationary to second order, if there is one.
@@ -90,6 +93,7 @@ impl<'t> Proof<'t> {
             best: f64::INFINITY,
             site: None,
             direction: [0.0; 3],
+            jet: None,
             is_cut_off: false,
             flat: None,
             rivals: [NOWHERE; RIVALS],
@@ -125,10 +129,23 @@ impl<'t> Proof<'t> {
             self.rival(site, d);
         }
         self.flat = flat();
+        self.jet = None;
         self.is_cut_off = false;
         self.site = Some(site);
         self.target = (distance - self.gap).max(0.0);
         self.target_squared = self.target * self.target * (1.0 + 8.0 * HALF_ULP);
+    }
+
+    /// Keeps the jet of the place just offered, if that is the best.
+    pub fn keep(&mut self, site: Site, jet: &Jet2) {
+        if self.site == Some(site) {
+            self.jet = Some(*jet);
+        }
+    }
+
+    /// The jet at `site`, if that is the best foot and its jet was kept.
+    pub fn jet_at(&self, site: Site) -> Option<Jet2> {
+        self.jet.filter(|_| self.site == Some(site))
     }
 
     /// Notes of the place just offered that the iteration did not end of itself there.

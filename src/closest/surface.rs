@@ -512,6 +512,7 @@ impl SurfaceSearch<'_> {
         let (at, jet, taken) = foot_on_surface(&view, start, range, method, None);
         proof.evaluations += taken;
         proof.offer(Site { piece: k, at }, jet.d, || jet.flat_direction());
+        proof.keep(Site { piece: k, at }, &jet);
     }
 
     fn walk_once(&self, workspace: &mut Workspace, proof: &mut Proof) {
