@@ -359,9 +359,8 @@ impl<'a> Search<'a> {
         for zero in zeros {
             match zero.found {
                 Found::Undecided => self.give_up(sheet, zero.low, zero.high),
-                Found::Root => match sheet.polish(sheet.local(zero.at)) {
+                Found::Root => match self.polished(sheet, sheet.local(zero.at)) {
                     Some(at) => {
-                        let at = self.refined_beside(sheet, at);
                         let is_on_end = at.iter().any(|&x| end_of(x) != 0.0);
                         let source = if is_on_end { Source::OnEnd } else { Source::Inside };
                         self.push(sheet, at, &zero, source);
@@ -371,6 +370,10 @@ impl<'a> Search<'a> {
                 Found::Flat => self.push(sheet, sheet.local(zero.at), &zero, Source::Flat),
             }
         }
+    }
+
+    fn polished(&self, sheet: &Sheet, at: [f64; 2]) -> Option<[f64; 2]> {
+        self.polish_beside(sheet, at).or_else(|| sheet.polish(at))
     }
 
     /// Zeros of the derivative along a side.

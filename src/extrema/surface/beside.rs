@@ -19,13 +19,19 @@
 //!
 //! [`Surface::partials_on`]: crate::surface::Surface::partials_on
 
-use super::{POLISH_STEPS, Search, Sheet};
+use super::{Search, Sheet, snapped};
 use crate::bounds::norm;
-use crate::extrema::LONGEST_POLISH;
-use crate::extrema::nature::Along;
+use crate::extrema::nature::{Along, end_of};
 use crate::index::{Patch, position_steps, side};
 use crate::jet::Jet2;
 use crate::knots::{Knots, Side};
+
+/// A place is beside an edge up to this share of the poles beyond it. Farther away rounding of the size of the patch is
+/// less than a slope that counts; and up to one half the greatest basis function is that of a pole of the edge.
+const BESIDE: f64 = 0.01;
+
+/// Iterations that give a zero its last digits there; halved steps count too.
+const BESIDE_STEPS: usize = 16;
 
 impl Search<'_> {
     /// For each parameter: the slope along it, when a collapsed edge along it is beside the place. `at` in the caller's
@@ -69,7 +75,7 @@ impl Search<'_> {
         let x = placed(span.ends, at[o], local[o]);
         (0..2).find_map(|e| {
             let share = (x - span.ends[e]).abs() / (span.ends[1] - span.ends[0]) * degree as f64;
-            let is_beside = patch.collapsed[ends[e]] && share < 0.5;
+            let is_beside = patch.collapsed[ends[e]] && share < BESIDE;
             let size = 2.0 * patch.radius * share + patch.spread;
             (is_beside && is_clamped(knots, span.ends[e])).then_some(size / self.index.frame.scale)
         })
@@ -93,36 +99,60 @@ impl Search<'_> {
         high / low
     }
 
-    /// Newton on the caller's shape from a zero of a patch beside a collapsed edge, in local parameters.
-    pub(super) fn refined_beside(&self, sheet: &Sheet, local: [f64; 2]) -> [f64; 2] {
+    /// Newton on the caller's shape from a zero of a patch, in local parameters; `None` when no collapsed edge is beside it.
+    /// A step that does not make the gradient less is halved, and none comes nearer to the edge than half the way: there
+    /// are other zeros, of how the edge is open. A zero that was proven to be inside the piece does not leave it.
+    pub(super) fn polish_beside(&self, sheet: &Sheet, local: [f64; 2]) -> Option<[f64; 2]> {
         let patch = &self.index.patches[sheet.piece];
-        let start = self.global(sheet, local);
-        if (0..2).all(|k| self.away(patch, start, local, k).is_none()) {
-            return local;
-        }
         let ends = [patch.u.ends, patch.v.ends];
-        let most = LONGEST_POLISH * patch.radius / self.index.frame.scale;
-        let mut best = (f64::INFINITY, start);
-        let mut at = start;
-        for _ in 0..POLISH_STEPS {
-            let inner = [0, 1].map(|k| if at[k] == ends[k][1] { 1.0 } else { 0.5 });
-            let jet = self.jet_beside(patch, at, inner);
-            let ([a, b, c], [g, h]) = (jet.hessian(), jet.gradient());
-            let slope = (g / norm(jet.s)).abs().max((h / norm(jet.t)).abs());
-            if slope < best.0 {
-                best = (slope, at);
-            }
-            let det = a * c - b * b;
-            let step = [(b * h - c * g) / det, (b * g - a * h) / det];
-            let moved = step[0].abs() * norm(jet.s) + step[1].abs() * norm(jet.t);
-            if moved.is_nan() || moved > most {
-                break;
-            }
-            at = [0, 1].map(|k| (at[k] + step[k]).clamp(ends[k][0], ends[k][1]));
-            at = [0, 1].map(|k| at[k].clamp(self.range[2 * k], self.range[2 * k + 1]));
+        let mut at = self.global(sheet, local);
+        let start = at;
+        let away = [0, 1].map(|k| self.away(patch, at, local, k));
+        if away == [None; 2] {
+            return None;
         }
-        if best.1 == start { local } else { [patch.u.local(best.1[0]), patch.v.local(best.1[1])] }
+        let range = [0, 1].map(|k| {
+            let [low, high] = ends[k];
+            let x = start[k];
+            let middle = |end: f64| if away[1 - k].is_some() { 0.5 * (end + x) } else { end };
+            let (low, high) =
+                if x - low < high - x { (middle(low), high) } else { (low, middle(high)) };
+            [low.max(self.range[2 * k]), high.min(self.range[2 * k + 1])]
+        });
+        let jet_at = |at: [f64; 2]| {
+            let inner = [0, 1].map(|k| if at[k] == ends[k][1] { 1.0 } else { 0.5 });
+            self.jet_beside(patch, at, inner)
+        };
+        let mut jet = jet_at(at);
+        let mut share = 1.0;
+        for _ in 0..BESIDE_STEPS {
+            let step = newton_step(&jet);
+            let next = [0, 1].map(|k| (at[k] + share * step[k]).clamp(range[k][0], range[k][1]));
+            let there = jet_at(next);
+            if next == at || next.iter().any(|x| x.is_nan()) {
+                break;
+            } else if steepness(&there) < steepness(&jet) {
+                (at, jet, share) = (next, there, 1.0);
+            } else {
+                share *= 0.5;
+            }
+        }
+        let found = [patch.u.local(at[0]), patch.v.local(at[1])].map(snapped);
+        let leaves = (0..2).any(|k| end_of(found[k]) != 0.0 && end_of(local[k]) == 0.0);
+        Some(if at == start || leaves { local } else { found })
     }
+}
+
+/// Length of the greater part of the gradient along one of the two parameters.
+fn steepness(jet: &Jet2) -> f64 {
+    let [g, h] = jet.gradient();
+    (g / norm(jet.s)).abs().max((h / norm(jet.t)).abs())
+}
+
+fn newton_step(jet: &Jet2) -> [f64; 2] {
+    let ([a, b, c], [g, h]) = (jet.hessian(), jet.gradient());
+    let det = a * c - b * b;
+    [(b * h - c * g) / det, (b * g - a * h) / det]
 }
 
 /// A parameter on the end of its piece that the local one tells, also where a seam is seen from the other side.

@@ -1,7 +1,7 @@
 //! From candidates to members: the same place seen twice is one, continua are joined, and each is told what it is.
 
 use super::{Candidate, Search, Sheet, Signs, Source};
-use crate::bounds::{Vector, norm, sub};
+use crate::bounds::{norm, sub};
 use crate::closest::{FootPoint, flag};
 use crate::extrema::nature::from_samples;
 use crate::extrema::{BESIDE, NEAR, Taken};
@@ -66,20 +66,25 @@ impl Search<'_> {
         members
     }
 
-    /// Whether the distance is not stationary at a zero that was moved onto the end of its piece: near a collapsed edge rounding
-    /// hides where along the edge it lies.
+    /// Whether the distance is not stationary at a zero that was moved onto the end of its piece, or lies where a collapsed edge
+    /// is not quite one point.
     fn keeps_a_slope(&self, candidate: &Candidate) -> bool {
-        if candidate.source != Source::OnEnd {
+        if !matches!(candidate.source, Source::OnEnd | Source::Inside) {
             return false;
         }
         let around = self.index.around(candidate.at, self.range);
         !around.iter().any(|&(piece, local)| {
+            let sharp = self.slopes_beside(piece, candidate.at, local);
+            if candidate.source == Source::Inside && sharp.iter().all(|along| along.is_none()) {
+                return true;
+            }
             let Some(sheet) = self.sheet(piece) else { return false };
             let jet = sheet.jet(local);
-            let limit =
-                |tangent: Vector| norm(tangent) * (SLOPE * norm(jet.d) + 32.0 * sheet.position);
-            let [g, h] = jet.gradient();
-            g.abs() <= limit(jet.s) && h.abs() <= limit(jet.t)
+            let limit = SLOPE * norm(jet.d) + 32.0 * sheet.position;
+            (0..2).all(|k| match sharp[k] {
+                Some(along) => along.slope.abs() <= limit + along.noise,
+                None => jet.gradient()[k].abs() <= limit * norm(if k == 0 { jet.s } else { jet.t }),
+            })
         })
     }
 
