@@ -450,6 +450,45 @@ fn beside_a_collapsed_edge_a_border_is_a_minimum_only_when_the_distance_rises_fr
 }
 
 #[test]
+fn a_query_on_the_pole_of_a_cap_is_decided_in_few_boxes() {
+    // A cap of 138 degrees in one piece along the meridian; its weights end far below one.
+    let half = 0.5 * 138.19f64.to_radians();
+    let (sin, cos) = (2.0 * half).sin_cos();
+    let meridian =
+        [([0., -1.], 1.), ([half.tan(), -1.], half.cos()), ([sin, -cos], 1.)].map(|(p, w)| (p, w));
+    let cap = turned_in_thirds(&meridian, &[0., 0., 0., 1., 1., 1.], [1e-16, 1.1e-14, -40.0]);
+    let query = cap.surface().evaluate(4.2, 0.0);
+    let options = ExtremaOptions { budget: 500, ..ExtremaOptions::default() };
+    let set = cap.extrema(query, &options, &mut || false).unwrap();
+    assert!(set.is_complete(), "{set:?}");
+    assert!(set.members[0].foot.distance < 1e-13, "{set:?}");
+}
+
+#[test]
+fn beside_an_almost_collapsed_edge_an_oblique_line_of_zeros_takes_few_boxes() {
+    // An eighth of a sphere whose poles at the top are 1e-9 apart: along that edge, and along a line beside it, the
+    // distance to a query on it is almost constant.
+    let r = 0.5f64.sqrt();
+    let (mut poles, mut weights) = (Vec::new(), Vec::new());
+    for ([x, y], w) in [([1., 0.], 1.), ([1., 1.], r), ([0., 1.], 1.)] {
+        for ([away, z], v) in [([1., 0.], 1.), ([1., 1.], r), ([1e-9, 1.], 1.)] {
+            poles.push([away * x, away * y, z]);
+            weights.push(w * v);
+        }
+    }
+    let knots = [0., 0., 0., 1., 1., 1.];
+    let surface = Surface::new(&knots, &knots, 2, 2, &poles, 3, 3, Some(&weights)).unwrap();
+    let eighth = IndexedSurface::new(surface);
+    let options = ExtremaOptions { budget: 2_000, ..ExtremaOptions::default() };
+    for k in 0..8 {
+        let query = eighth.surface().evaluate(0.1 + 0.1 * f64::from(k), 1.0 - 1e-10 * f64::from(k));
+        let set = eighth.extrema(query, &options, &mut || false).unwrap();
+        assert!(set.is_complete(), "{k}: {set:?}");
+        assert!(set.members[0].foot.distance < 2e-10, "{k}: {set:?}");
+    }
+}
+
+#[test]
 fn intervals_that_hold_more_than_an_oblique_continuum_are_marked() {
     const OBLIQUE: f64 = 2e-4;
     // A quarter of a cylinder whose circles run obliquely to u.
