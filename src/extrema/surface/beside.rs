@@ -20,7 +20,7 @@
 //! [`Surface::partials_on`]: crate::surface::Surface::partials_on
 
 use super::{Search, Sheet, snapped};
-use crate::bounds::norm;
+use crate::bounds::{extent, norm};
 use crate::extrema::nature::{Along, end_of};
 use crate::index::{Patch, position_steps, side};
 use crate::jet::Jet2;
@@ -95,7 +95,7 @@ impl Search<'_> {
 
     fn weight_ratio(&self) -> f64 {
         let weights = self.shape.surface().weights().unwrap_or(&[1.0]);
-        let (low, high) = crate::bounds::extent(weights);
+        let (low, high) = extent(weights);
         high / low
     }
 
@@ -104,34 +104,29 @@ impl Search<'_> {
     /// are other zeros, of how the edge is open. A zero that was proven to be inside the piece does not leave it.
     pub(super) fn polish_beside(&self, sheet: &Sheet, local: [f64; 2]) -> Option<[f64; 2]> {
         let patch = &self.index.patches[sheet.piece];
-        let ends = [patch.u.ends, patch.v.ends];
-        let mut at = self.global(sheet, local);
-        let start = at;
-        let away = [0, 1].map(|k| self.away(patch, at, local, k));
+        let start = self.global(sheet, local);
+        let away = [0, 1].map(|k| self.away(patch, start, local, k));
         if away == [None; 2] {
             return None;
         }
+        let ends = [patch.u.ends, patch.v.ends];
         let range = [0, 1].map(|k| {
-            let [low, high] = ends[k];
-            let x = start[k];
-            let middle = |end: f64| if away[1 - k].is_some() { 0.5 * (end + x) } else { end };
-            let (low, high) =
-                if x - low < high - x { (middle(low), high) } else { (low, middle(high)) };
+            let [low, high] = half_way(ends[k], start[k], away[1 - k].is_some());
             [low.max(self.range[2 * k]), high.min(self.range[2 * k + 1])]
         });
         let jet_at = |at: [f64; 2]| {
             let inner = [0, 1].map(|k| if at[k] == ends[k][1] { 1.0 } else { 0.5 });
             self.jet_beside(patch, at, inner)
         };
-        let mut jet = jet_at(at);
-        let mut share = 1.0;
+        let (mut at, mut jet, mut share) = (start, jet_at(start), 1.0);
         for _ in 0..BESIDE_STEPS {
             let step = newton_step(&jet);
             let next = [0, 1].map(|k| (at[k] + share * step[k]).clamp(range[k][0], range[k][1]));
-            let there = jet_at(next);
             if next == at || next.iter().any(|x| x.is_nan()) {
                 break;
-            } else if steepness(&there) < steepness(&jet) {
+            }
+            let there = jet_at(next);
+            if steepness(&there) < steepness(&jet) {
                 (at, jet, share) = (next, there, 1.0);
             } else {
                 share *= 0.5;
@@ -140,6 +135,17 @@ impl Search<'_> {
         let found = [patch.u.local(at[0]), patch.v.local(at[1])].map(snapped);
         let leaves = (0..2).any(|k| end_of(found[k]) != 0.0 && end_of(local[k]) == 0.0);
         Some(if at == start || leaves { local } else { found })
+    }
+}
+
+/// The ends of a piece, the nearer one moved half the way to `x` when a collapsed edge is there.
+fn half_way([low, high]: [f64; 2], x: f64, is_collapsed: bool) -> [f64; 2] {
+    if !is_collapsed {
+        [low, high]
+    } else if x - low < high - x {
+        [0.5 * (low + x), high]
+    } else {
+        [low, 0.5 * (x + high)]
     }
 }
 
