@@ -190,7 +190,8 @@ impl Search<'_> {
         }
         let interval = |k: usize, x: f64| [area[2 * k].min(x), area[2 * k + 1].max(x)];
         let (u, v) = (interval(0, foot.u), interval(1, foot.v));
-        if is_chain || !self.stays_level(foot.distance, u, v) {
+        let is_cut = self.undecided.iter().any(|open| touch(open, &area));
+        if is_chain || is_cut || !self.stays_level(foot.distance, u, v) {
             foot.flags |= flag::NOT_PROVEN;
         }
         // Where a parameter does not move the point, the signs are rounding.
@@ -199,7 +200,9 @@ impl Search<'_> {
             [false, true] if !is_collapsed => self.signs_across(at, 0).nature_across(),
             _ => None,
         };
-        let nature = across.unwrap_or_else(|| self.sampled_nature(at, area));
+        // Part of what goes on in an undecided box: what is around it is not known.
+        let around = || if is_cut { Nature::Flat } else { self.sampled_nature(at, area) };
+        let nature = across.unwrap_or_else(around);
         Member { foot, u, v, kind: kind(flat), nature }
     }
 
