@@ -650,7 +650,8 @@ typedef struct fpt_extrema_options {
 typedef struct fpt_foot_member {
     /**
      * The representative. Its lower_bound is 0. FPT_FOOT_NOT_PROVEN: in a preimage, a place within the tolerance could
-     * be neither found nor excluded here; in extrema, the intervals may hold more than one stationary point.
+     * be neither found nor excluded here; in extrema, the intervals may hold more than one stationary point, or places
+     * where the distance differs by more than the accuracy.
      */
     struct fpt_foot_point foot;
     /**

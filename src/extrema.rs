@@ -16,7 +16,8 @@
 //! References: Piegl, Tiller, *The NURBS Book*, section 6.1 (the equations); Goresky, MacPherson, *Stratified Morse theory*,
 //! 1988 (points of borders, creases and corners).
 //! Limits: proof is up to the accuracy: stationary points whose distances differ by less along a short way may come out
-//! as one flat member; a continuum that runs obliquely to the parameters takes many boxes.
+//! as one flat member; a continuum that runs obliquely to the parameters takes more boxes, and its intervals hold places
+//! beside it.
 
 mod gradient;
 

@@ -11,7 +11,7 @@
 //!
 //! References: Krawczyk, *Newton-Algorithmen zur Bestimmung von Nullstellen mit Fehlerschranken*, 1969; Mourrain, Pavone,
 //! *Subdivision methods for solving polynomial equations*, 2009 (preconditioned Bernstein tests).
-//! Limit: a curve of zeros that runs obliquely to the parameters takes many boxes; the budget then leaves some undecided.
+//! Limit: a curve of zeros that runs obliquely to the parameters takes more boxes; the budget may leave some undecided.
 
 mod single;
 

@@ -4,6 +4,7 @@ use footpoint::closest::{FootPoint, QueryOptions, Scope, Workspace, flag};
 use footpoint::curve::Curve;
 use footpoint::extrema::ExtremaOptions;
 use footpoint::index::{IndexedCurve, IndexedSurface};
+use footpoint::set::{Kind, Nature};
 use footpoint::surface::Surface;
 
 const C1_KNOTS: [f64; 10] = [0., 0., 0., 0., 1., 2., 3., 3., 3., 3.];
@@ -333,4 +334,217 @@ fn the_bound_is_as_sharp_far_from_the_origin() {
         assert!((foot.lower_bound - expected.lower_bound).abs() < 1e-9, "{foot:?} {expected:?}");
         assert_eq!(foot.flags & flag::NOT_PROVEN, 0);
     }
+}
+
+/// Poles around the axis with three arcs of 120 degrees, each meeting the next at a double knot.
+fn turned_in_thirds(
+    meridian: &[([f64; 2], f64)],
+    knots_v: &[f64],
+    centre: [f64; 3],
+) -> IndexedSurface {
+    const THIRD: f64 = 2.0943951023931953;
+    let knots_u =
+        [0., 0., 0., THIRD, THIRD, 2. * THIRD, 2. * THIRD, 3. * THIRD, 3. * THIRD, 3. * THIRD];
+    let (mut poles, mut weights) = (Vec::new(), Vec::new());
+    for k in 0..7 {
+        let (sin, cos) = (0.5 * THIRD * f64::from(k % 6)).sin_cos();
+        let (away, weight) = if k % 2 == 0 { (1.0, 1.0) } else { (2.0, 0.5) };
+        for &([r, z], w) in meridian {
+            poles.push([centre[0] + away * r * cos, centre[1] + away * r * sin, centre[2] + z]);
+            weights.push(w * weight);
+        }
+    }
+    let count = meridian.len();
+    let made = Surface::new(&knots_u, knots_v, 2, 2, &poles, 7, count, Some(&weights));
+    IndexedSurface::new(made.unwrap())
+}
+
+/// The nearest and the farthest point of a sphere, and nothing else, for queries beside its axis. Rounding of the centre
+/// opens the poles a little.
+fn check_beside_the_axis(centre: [f64; 3], radius: f64) {
+    let r = 0.5f64.sqrt();
+    let half = [([0., -1.], 1.), ([1., -1.], r), ([1., 0.], 1.), ([1., 1.], r), ([0., 1.], 1.)]
+        .map(|([x, z], w)| ([radius * x, radius * z], w));
+    let sphere = turned_in_thirds(&half, &[0., 0., 0., 1., 1., 2., 2., 2.], centre);
+    for k in 0..600 {
+        let away = 10f64.powf(-8.5 + 0.005 * f64::from(k)) * radius;
+        let angle = 2.39996 * f64::from(k);
+        let height = radius * [0.98, -0.99, 0.999, -1.01, 1.3, -0.4][k as usize % 6];
+        let from = [away * angle.cos(), away * angle.sin(), height];
+        let query = [0, 1, 2].map(|c| centre[c] + from[c]);
+        let set = sphere.extrema(query, &ExtremaOptions::default(), &mut || false).unwrap();
+        let size = (away * away + height * height).sqrt();
+        assert_eq!((set.members.len(), set.undecided.len()), (2, 0), "{k}: {set:?}");
+        for (member, sign) in set.members.iter().zip([1.0, -1.0]) {
+            let apart = (0..3)
+                .map(|c| {
+                    (member.foot.point[c] - centre[c] - sign * radius * from[c] / size).powi(2)
+                })
+                .sum::<f64>()
+                .sqrt();
+            assert!(apart < 1e-9 * radius, "{k}: {apart:e} {member:?}");
+            assert_eq!(member.foot.flags & flag::NOT_PROVEN, 0, "{k}: {member:?}");
+        }
+    }
+}
+
+#[test]
+fn beside_a_pole_a_zero_is_seen_once_and_none_is_lost() {
+    check_beside_the_axis([0., 0., 0.], 1.0);
+    check_beside_the_axis([-72.5, -33.1, 0.25], 2.0);
+    check_beside_the_axis([1.11e-14, 3.7e-15, -40.0], 10.0);
+}
+
+#[test]
+fn beside_an_edge_open_by_rounding_a_zero_is_one_of_the_shape_itself() {
+    // A quarter of a disc, slightly bent; the poles of its centre are apart by 1e-13, and the foot is 1e-7 from it.
+    let mut poles = Vec::new();
+    for i in 0..4 {
+        let (x, y) = ([1., 1., 0.55, 0.][i], [0., 0.55, 1., 1.][i]);
+        let open = 1e-13 * [0., 1., -1., 0.5][i];
+        poles.extend([[0., 0., open], [0.5 * x, 0.5 * y, 0.], [x, y, 0.1]]);
+    }
+    let knots_u = [0., 0., 0., 0., 1., 1., 1., 1.];
+    let knots_v = [0., 0., 0., 1., 1., 1.];
+    let surface = Surface::new(&knots_u, &knots_v, 3, 2, &poles, 4, 3, None).unwrap();
+    let fan = IndexedSurface::new(surface);
+    for k in 1..20 {
+        let (sin, cos) = (0.075 * f64::from(k)).sin_cos();
+        let query = [1e-7 * cos, 1e-7 * sin, 1e-4];
+        let set = fan.extrema(query, &ExtremaOptions::default(), &mut || false).unwrap();
+        let inside = set.members.iter().filter(|member| member.foot.flags & flag::EDGE == 0);
+        let feet: Vec<_> = inside.map(|member| member.foot).collect();
+        assert_eq!((feet.len(), set.is_complete()), (1, true), "{k}: {set:?}");
+        let (mut out, foot) = ([[0.0; 3]; 3], &feet[0]);
+        fan.surface().partials(foot.u, foot.v, 1, &mut out);
+        let d = fan.surface().vector_from(query, foot.u, foot.v);
+        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        for tangent in [out[1], out[2]] {
+            let cosine = dot(d, tangent) / (dot(d, d) * dot(tangent, tangent)).sqrt();
+            assert!(cosine.abs() < 1e-9, "{k}: {cosine:e} {foot:?}");
+        }
+    }
+}
+
+#[test]
+fn beside_a_collapsed_edge_a_border_is_a_minimum_only_when_the_distance_rises_from_it() {
+    // A quarter of a plane disc. The query lies beside its centre: the nearest point is inside, and towards it the distance
+    // falls from both borders.
+    let r = 0.5f64.sqrt();
+    let mut poles = Vec::new();
+    for (x, y) in [(1., 0.), (1., 1.), (0., 1.)] {
+        poles.extend([[0.; 3], [x, y, 0.]]);
+    }
+    let (knots_u, knots_v) = ([0., 0., 0., 1., 1., 1.], [0., 0., 1., 1.]);
+    let weights = [1., 1., r, r, 1., 1.];
+    let surface = Surface::new(&knots_u, &knots_v, 2, 1, &poles, 3, 2, Some(&weights)).unwrap();
+    let disc = IndexedSurface::new(surface);
+    for away in [1e-9, 1e-7, 1e-5, 1e-3] {
+        let set = disc
+            .extrema([0.8 * away, 0.6 * away, 1e-2], &ExtremaOptions::default(), &mut || false)
+            .unwrap();
+        let near = set.members.iter().filter(|member| (1e-12..0.5).contains(&member.foot.v));
+        let natures: Vec<Nature> = near.map(|member| member.nature).collect();
+        assert_eq!(natures, [Nature::Minimum, Nature::Saddle, Nature::Saddle], "{away}: {set:?}");
+    }
+}
+
+#[test]
+fn a_query_on_the_pole_of_a_cap_is_decided_in_few_boxes() {
+    // A cap of 138 degrees in one piece along the meridian; its weights end far below one.
+    let half = 0.5 * 138.19f64.to_radians();
+    let (sin, cos) = (2.0 * half).sin_cos();
+    let meridian =
+        [([0., -1.], 1.), ([half.tan(), -1.], half.cos()), ([sin, -cos], 1.)].map(|(p, w)| (p, w));
+    let cap = turned_in_thirds(&meridian, &[0., 0., 0., 1., 1., 1.], [1e-16, 1.1e-14, -40.0]);
+    let query = cap.surface().evaluate(4.2, 0.0);
+    let options = ExtremaOptions { budget: 500, ..ExtremaOptions::default() };
+    let set = cap.extrema(query, &options, &mut || false).unwrap();
+    assert!(set.is_complete(), "{set:?}");
+    assert!(set.members[0].foot.distance < 1e-13, "{set:?}");
+}
+
+/// An eighth of a sphere whose poles at the top are 1e-9 apart: along that edge, and along a line beside it, the distance
+/// to a query on it is almost constant.
+fn open_eighth() -> IndexedSurface {
+    let r = 0.5f64.sqrt();
+    let (mut poles, mut weights) = (Vec::new(), Vec::new());
+    for ([x, y], w) in [([1., 0.], 1.), ([1., 1.], r), ([0., 1.], 1.)] {
+        for ([away, z], v) in [([1., 0.], 1.), ([1., 1.], r), ([1e-9, 1.], 1.)] {
+            poles.push([away * x, away * y, z]);
+            weights.push(w * v);
+        }
+    }
+    let knots = [0., 0., 0., 1., 1., 1.];
+    let surface = Surface::new(&knots, &knots, 2, 2, &poles, 3, 3, Some(&weights)).unwrap();
+    IndexedSurface::new(surface)
+}
+
+#[test]
+fn a_flat_member_that_goes_on_in_an_undecided_box_is_marked_and_no_minimum() {
+    let cylinder = oblique_cylinder(2e-4);
+    let mut cut = 0;
+    for budget in (20..1_000).step_by(7) {
+        let options = ExtremaOptions { budget, ..ExtremaOptions::default() };
+        let set = cylinder.extrema([0.; 3], &options, &mut || false).unwrap();
+        for member in &set.members {
+            let ([u0, u1], [v0, v1]) = (member.u, member.v);
+            let goes_on = (u0 < u1 || v0 < v1)
+                && set
+                    .undecided
+                    .iter()
+                    .any(|b| u0 <= b[1] && b[0] <= u1 && v0 <= b[3] && b[2] <= v1);
+            if goes_on && member.kind == Kind::Point {
+                let is_marked = member.foot.flags & flag::NOT_PROVEN != 0;
+                assert!(is_marked && member.nature == Nature::Flat, "{budget}: {member:?}");
+                cut += 1;
+            }
+        }
+    }
+    assert!(cut > 0);
+}
+
+#[test]
+fn beside_an_almost_collapsed_edge_an_oblique_line_of_zeros_takes_few_boxes() {
+    let eighth = open_eighth();
+    let options = ExtremaOptions { budget: 2_000, ..ExtremaOptions::default() };
+    for k in 0..8 {
+        let query = eighth.surface().evaluate(0.1 + 0.1 * f64::from(k), 1.0 - 1e-10 * f64::from(k));
+        let set = eighth.extrema(query, &options, &mut || false).unwrap();
+        assert!(set.is_complete(), "{k}: {set:?}");
+        assert!(set.members[0].foot.distance < 2e-10, "{k}: {set:?}");
+    }
+}
+
+/// A quarter of a cylinder whose circles run obliquely to u, by `oblique` of a radius.
+fn oblique_cylinder(oblique: f64) -> IndexedSurface {
+    let r = 0.5f64.sqrt();
+    let mut poles = Vec::new();
+    for (x, y, rise) in [(1., 0., 0.), (1., 1., 0.5), (0., 1., 1.)] {
+        poles.extend([[x, y, -1. + oblique * rise], [x, y, 1. + oblique * rise]]);
+    }
+    let weights = [1., 1., r, r, 1., 1.];
+    let (knots_u, knots_v) = ([0., 0., 0., 1., 1., 1.], [0., 0., 1., 1.]);
+    let made = Surface::new(&knots_u, &knots_v, 2, 1, &poles, 3, 2, Some(&weights));
+    IndexedSurface::new(made.unwrap())
+}
+
+#[test]
+fn intervals_that_hold_more_than_an_oblique_continuum_are_marked() {
+    let cylinder = oblique_cylinder(2e-4);
+    let set = cylinder.extrema([0.; 3], &ExtremaOptions::default(), &mut || false).unwrap();
+    let mut wide = 0;
+    for member in &set.members {
+        let ([u0, u1], [v0, v1]) = (member.u, member.v);
+        let corners = [[u0, v0], [u0, v1], [u1, v0], [u1, v1]];
+        let change = corners.map(|[u, v]| {
+            let p = cylinder.surface().evaluate(u, v);
+            let away = (p[0] * p[0] + p[1] * p[1] + p[2] * p[2]).sqrt();
+            (away - member.foot.distance).abs()
+        });
+        let is_level = change.iter().all(|&x| x < 1e-9);
+        wide += usize::from(!is_level);
+        assert!(is_level || member.foot.flags & flag::NOT_PROVEN != 0, "{member:?} {change:?}");
+    }
+    assert!(wide > 0, "{set:?}");
 }

@@ -20,6 +20,15 @@ const NOISE: f64 = 64.0;
 /// A parameter does not move the point when its speed is below this share of the other one's.
 const SINGULAR: f64 = 1e-10;
 
+/// The derivative of the distance along a parameter per length of the way times the distance, so a length.
+#[derive(Clone, Copy, Debug)]
+pub struct Along {
+    /// Towards greater parameters.
+    pub slope: f64,
+    /// How far it may be off for the rounding of the tangent.
+    pub noise: f64,
+}
+
 /// Signs gathered around a place.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Signs {
@@ -78,8 +87,9 @@ impl Signs {
         self.put(jet.hessian(), LEAST_CURVATURE * speed * speed + 4.0 * noise);
     }
 
-    /// A patch at whose side or corner (or inside of which) the place lies.
-    pub fn patch(&mut self, jet: &Jet2, at: [f64; 2], position: f64) {
+    /// A patch at whose side or corner (or inside of which) the place lies; `sharp` is told where slopes are known better
+    /// than from `jet`.
+    pub fn patch(&mut self, jet: &Jet2, at: [f64; 2], position: f64, sharp: [Option<Along>; 2]) {
         let gradient = jet.gradient();
         let tangents = [jet.s, jet.t];
         let reach = LEAST_COSINE * norm(jet.d) + 32.0 * position;
@@ -89,7 +99,11 @@ impl Signs {
             if inward != 0.0 {
                 self.sides[k][usize::from(inward < 0.0)] = true;
             }
-            inward != 0.0 && self.first(k, inward * gradient[k], norm(tangents[k]) * reach + noise)
+            let (slope, least) = match sharp[k] {
+                Some(along) => (along.slope, reach + along.noise),
+                None => (gradient[k], norm(tangents[k]) * reach + noise),
+            };
+            inward != 0.0 && self.first(k, inward * slope, least)
         });
         let [a, b, c] = jet.hessian();
         let [e, _, g] = jet.metric();

@@ -1,5 +1,7 @@
 //! Stationary points on a surface.
 
+mod beside;
+
 mod members;
 
 use super::gradient::{Slope, View};
@@ -357,7 +359,7 @@ impl<'a> Search<'a> {
         for zero in zeros {
             match zero.found {
                 Found::Undecided => self.give_up(sheet, zero.low, zero.high),
-                Found::Root => match sheet.polish(sheet.local(zero.at)) {
+                Found::Root => match self.polished(sheet, sheet.local(zero.at)) {
                     Some(at) => {
                         let is_on_end = at.iter().any(|&x| end_of(x) != 0.0);
                         let source = if is_on_end { Source::OnEnd } else { Source::Inside };
@@ -368,6 +370,10 @@ impl<'a> Search<'a> {
                 Found::Flat => self.push(sheet, sheet.local(zero.at), &zero, Source::Flat),
             }
         }
+    }
+
+    fn polished(&self, sheet: &Sheet, at: [f64; 2]) -> Option<[f64; 2]> {
+        self.polish_beside(sheet, at).or_else(|| sheet.polish(at))
     }
 
     /// Zeros of the derivative along a side.
@@ -446,7 +452,7 @@ impl<'a> Search<'a> {
     fn push(&mut self, sheet: &Sheet, at: [f64; 2], zero: &Zero<2>, source: Source) {
         let own = (source == Source::Inside).then(|| {
             let mut own = Signs::default();
-            own.patch(&sheet.jet(at), [0.5; 2], sheet.position);
+            own.patch(&sheet.jet(at), [0.5; 2], sheet.position, [None; 2]);
             own
         });
         let area = self.area(sheet, zero.low, zero.high);
@@ -475,7 +481,8 @@ impl<'a> Search<'a> {
         for (piece, local) in self.index.around(at, self.range) {
             let Some(sheet) = self.sheet(piece) else { continue };
             let (local, ends) = self.ended(at, local);
-            signs.patch(&sheet.jet(local), ends, sheet.position);
+            let sharp = self.slopes_beside(piece, at, local);
+            signs.patch(&sheet.jet(local), ends, sheet.position, sharp);
         }
         signs
     }

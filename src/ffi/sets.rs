@@ -54,7 +54,8 @@ pub enum fpt_member_nature {
 #[repr(C)]
 pub struct fpt_foot_member {
     /// The representative. Its lower_bound is 0. FPT_FOOT_NOT_PROVEN: in a preimage, a place within the tolerance could
-    /// be neither found nor excluded here; in extrema, the intervals may hold more than one stationary point.
+    /// be neither found nor excluded here; in extrema, the intervals may hold more than one stationary point, or places
+    /// where the distance differs by more than the accuracy.
     pub foot: fpt_foot_point,
     /// Least and greatest u that belong to the member; they enclose, rounding included.
     pub u: [f64; 2],

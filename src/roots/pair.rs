@@ -126,13 +126,28 @@ impl Walk<'_, '_> {
             self.out.push(Zero::area(Found::Undecided, area.low, area.high));
             return Verdict::Closed;
         }
+        Verdict::Halve(self.direction(area, at, sizes))
+    }
+
+    /// Which parameter to halve: the one along which more of what the values mean goes.
+    fn direction(&self, area: &Area, at: usize, sizes: [f64; 2]) -> usize {
+        let width = [0, 1].map(|k| area.high[k] - area.low[k]);
         let scale = self.meaning.scale(area.low, area.high);
-        // What rounding hides does not get smaller by halving.
+        // What rounding hides does not get smaller by halving; where it hides both, the box is flat once it is small
+        // enough, and then what is hidden counts.
         let seen = [0, 1].map(|k| (sizes[k] - NOISE * area.error[k]).max(0.0));
-        let need = [0, 1].map(|k| seen[k] * scale[k] * width[k]);
+        let left = if seen == [0.0; 2] { sizes } else { seen };
+        let mut need = [0, 1].map(|k| left[k] * scale[k] * width[k]);
+        if self.looked > PATIENCE {
+            // Along an oblique line of zeros a value may come from the other parameter than its own: there halving
+            // its own one for ever does not make it less.
+            let slopes = self.derivative([self.coefficients(at, 0), self.coefficients(at, 1)]);
+            let share = |j: usize, k: usize| (greatest(slopes[j][k]) / sizes[j]).min(1.0);
+            need = [0, 1].map(|k| need[0] * share(0, k) + need[1] * share(1, k));
+        }
         let narrow = [0, 1].map(|k| width[k] < LEAST_WIDTH);
         let s_first = need[0] > need[1] || (need[0] == need[1] && width[0] >= width[1]);
-        Verdict::Halve(if narrow[1] || (s_first && !narrow[0]) { 0 } else { 1 })
+        if narrow[1] || (s_first && !narrow[0]) { 0 } else { 1 }
     }
 
     /// The derivative in the unit parameters of the area: ranges of the four entries.

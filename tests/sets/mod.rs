@@ -134,8 +134,8 @@ fn wanted_flags(shape: &Shape, m: &Member, found: u32) -> u32 {
     let (u, v) = (m.foot.u, m.foot.v);
     let on = [u == u0, u == u1, is_surface && v == v0, is_surface && v == v1];
     let (in_u, in_v) = (on[0] || on[1], on[2] || on[3]);
-    // A place that stands for an area whose distances differ may say so.
-    let is_area = m.kind == Kind::Point && (m.u[0] < m.u[1] || m.v[0] < m.v[1]);
+    // A place that stands for an area whose distances differ says so.
+    let is_area = m.u[0] < m.u[1] || m.v[0] < m.v[1];
     let open = flag::CREASE | flag::TIE | if is_area { flag::NOT_PROVEN } else { 0 };
     let mut flags = found & open;
     let put = |flags: &mut u32, holds: bool, bit: u32| *flags |= if holds { bit } else { 0 };

@@ -1,7 +1,7 @@
 //! From candidates to members: the same place seen twice is one, continua are joined, and each is told what it is.
 
 use super::{Candidate, Search, Sheet, Signs, Source};
-use crate::bounds::{Vector, norm, sub};
+use crate::bounds::{norm, sub};
 use crate::closest::{FootPoint, flag};
 use crate::extrema::nature::from_samples;
 use crate::extrema::{BESIDE, NEAR, Taken};
@@ -16,7 +16,7 @@ const SLOPE: f64 = 1e-7;
 const AROUND: f64 = 0.02;
 /// Flat boxes whose distances differ by more than this many accuracies are a chain, not a continuum.
 const CHAIN: f64 = 8.0;
-/// Samples on each side of the rectangle around it.
+/// Samples on each side of the rectangle around it, and of its own.
 const SIDE_SAMPLES: usize = 4;
 
 impl Search<'_> {
@@ -42,9 +42,7 @@ impl Search<'_> {
         points.sort_by_key(|&(keeps_a_slope, c)| (keeps_a_slope, c.source));
         for (keeps_a_slope, candidate) in points {
             let mut foot = self.foot(candidate.at);
-            // Near a collapsed edge a zero may be seen once more on a knot line beside it.
-            let is_vague = keeps_a_slope
-                || (candidate.source == Source::Border && self.signs(candidate.at).is_unclear());
+            let is_vague = keeps_a_slope || self.is_vague(&candidate);
             let is_twin = is_vague && taken.iter().any(|known| self.is_level(known, &foot));
             if is_twin || self.is_taken(&taken, &candidate, &foot) {
                 continue;
@@ -66,21 +64,32 @@ impl Search<'_> {
         members
     }
 
-    /// Whether the distance is not stationary at a zero that was moved onto the end of its piece: near a collapsed edge rounding
-    /// hides where along the edge it lies.
+    /// Whether the distance is not stationary at a zero that was moved onto the end of its piece, or lies where a collapsed edge
+    /// is not quite one point.
     fn keeps_a_slope(&self, candidate: &Candidate) -> bool {
-        if candidate.source != Source::OnEnd {
+        if !matches!(candidate.source, Source::OnEnd | Source::Inside) {
             return false;
         }
         let around = self.index.around(candidate.at, self.range);
         !around.iter().any(|&(piece, local)| {
+            let sharp = self.slopes_beside(piece, candidate.at, local);
+            if candidate.source == Source::Inside && sharp.iter().all(|along| along.is_none()) {
+                return true;
+            }
             let Some(sheet) = self.sheet(piece) else { return false };
             let jet = sheet.jet(local);
-            let limit =
-                |tangent: Vector| norm(tangent) * (SLOPE * norm(jet.d) + 32.0 * sheet.position);
-            let [g, h] = jet.gradient();
-            g.abs() <= limit(jet.s) && h.abs() <= limit(jet.t)
+            let limit = SLOPE * norm(jet.d) + 32.0 * sheet.position;
+            (0..2).all(|k| match sharp[k] {
+                Some(along) => along.slope.abs() <= limit + along.noise,
+                None => jet.gradient()[k].abs() <= limit * norm(if k == 0 { jet.s } else { jet.t }),
+            })
         })
+    }
+
+    /// Whether a candidate on a knot line may be a zero beside it: neither side tells whether the distance rises or falls.
+    fn is_vague(&self, candidate: &Candidate) -> bool {
+        matches!(candidate.source, Source::Border | Source::OnEnd)
+            && self.signs(candidate.at).is_unclear()
     }
 
     /// Whether a foot is a known one within rounding: as near to the query, and beside it in space.
@@ -179,19 +188,41 @@ impl Search<'_> {
         if flat == [true; 2] || (flat != [false; 2] && !is_collapsed) {
             foot.flags |= flag::CONTINUUM | flag::TIE;
         }
-        if is_chain {
-            foot.flags |= flag::NOT_PROVEN;
-        }
         let interval = |k: usize, x: f64| [area[2 * k].min(x), area[2 * k + 1].max(x)];
         let (u, v) = (interval(0, foot.u), interval(1, foot.v));
+        let is_cut = self.undecided.iter().any(|open| touch(open, &area));
+        if is_chain || is_cut || !self.stays_level(foot.distance, u, v) {
+            foot.flags |= flag::NOT_PROVEN;
+        }
         // Where a parameter does not move the point, the signs are rounding.
         let across = match flat {
             [true, false] if !is_collapsed => self.signs_across(at, 1).nature_across(),
             [false, true] if !is_collapsed => self.signs_across(at, 0).nature_across(),
             _ => None,
         };
-        let nature = across.unwrap_or_else(|| self.sampled_nature(at, area));
+        // Part of what goes on in an undecided box: what is around it is not known.
+        let around = || if is_cut { Nature::Flat } else { self.sampled_nature(at, area) };
+        let nature = across.unwrap_or_else(around);
         Member { foot, u, v, kind: kind(flat), nature }
+    }
+
+    /// Whether the distance stays within the accuracy on intervals. Those around a continuum that runs obliquely hold places
+    /// beside it, where it may not.
+    fn stays_level(&self, here: f64, u: [f64; 2], v: [f64; 2]) -> bool {
+        let place = |[low, high]: [f64; 2], j: usize| {
+            if j == SIDE_SAMPLES {
+                high
+            } else {
+                low + j as f64 / SIDE_SAMPLES as f64 * (high - low)
+            }
+        };
+        let steps = |[low, high]: [f64; 2]| if low < high { SIDE_SAMPLES } else { 0 };
+        (0..=steps(u)).all(|i| {
+            (0..=steps(v)).all(|j| {
+                let there = self.distance([place(u, i), place(v, j)]);
+                (there - here).abs() <= 2.0 * self.accuracy
+            })
+        })
     }
 
     /// The best place in a flat area: nearest of the flat boxes' middles, then Newton where the second derivatives allow it.
