@@ -21,6 +21,8 @@ pub mod jet;
 
 pub mod tree;
 
+pub mod analytic;
+
 pub mod index;
 
 pub mod refine;

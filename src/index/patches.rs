@@ -4,6 +4,7 @@ use super::piece::{
     Frame, LocalNet, MAX_TENSOR_BYTES, Span, balance_for, parts_for, position_steps,
     power_of_two_over, push_tensors, reserved, tensor_len,
 };
+use crate::analytic::Analytic;
 use crate::bezier::{Bidegree, extraction};
 use crate::bounds::{Aabb, HALF_ULP, Vector, add, extent, norm, sub};
 use crate::error::Error;
@@ -67,6 +68,8 @@ pub struct SurfaceIndex {
     pub closed: [bool; 2],
     /// Whether the edges u0, u1, v0, v1 are collapsed.
     pub collapsed: [bool; 4],
+    /// The elementary surface that this one is, if it is one.
+    pub analytic: Option<Analytic>,
     nets: Vec<f64>,
     tensors: Vec<f64>,
 }
@@ -119,6 +122,7 @@ impl SurfaceIndex {
             columns,
             closed: [surface.is_closed_u(), surface.is_closed_v()],
             collapsed: surface.collapsed_edges(),
+            analytic: None,
             nets: reserved(count * width)?,
             tensors: reserved(if keep_tensors { count * tensor_width } else { 0 })?,
         };
@@ -270,6 +274,7 @@ impl SurfaceIndex {
         (self.nets.capacity() + self.tensors.capacity()) * 8
             + self.patches.capacity() * size_of::<Patch>()
             + self.tree.memory()
+            + self.analytic.as_ref().map_or(0, Analytic::memory)
     }
 }
 

@@ -40,6 +40,7 @@ impl<T> Once<T> {
 pub struct IndexedCurve {
     curve: Curve,
     index: Once<CurveIndex>,
+    general: bool,
 }
 
 /// A surface and its search index.
@@ -47,12 +48,19 @@ pub struct IndexedCurve {
 pub struct IndexedSurface {
     surface: Surface,
     index: Once<SurfaceIndex>,
+    general: bool,
 }
 
 impl IndexedCurve {
     /// Takes the curve; the index is built on first use.
     pub fn new(curve: Curve) -> Self {
-        Self { curve, index: Once::new() }
+        Self { curve, index: Once::new(), general: false }
+    }
+
+    /// As [`Self::new`], but elementary shapes are searched like any other: for tests that compare the two.
+    #[doc(hidden)]
+    pub fn general(curve: Curve) -> Self {
+        Self { general: true, ..Self::new(curve) }
     }
 
     /// The curve.
@@ -65,7 +73,13 @@ impl IndexedCurve {
     /// # Errors
     /// [`Error::OutOfMemory`]; [`Error::Cancelled`] when `poll` said so.
     pub fn index(&self, poll: Poll) -> Result<&CurveIndex, Error> {
-        self.index.get_or_build(|| CurveIndex::new(&self.curve, poll))
+        self.index.get_or_build(|| {
+            let mut index = CurveIndex::new(&self.curve, poll)?;
+            if !self.general {
+                index.recognise();
+            }
+            Ok(index)
+        })
     }
 
     /// Builds the index if it was not there. Errors as [`Self::index`].
@@ -80,7 +94,13 @@ impl IndexedCurve {
 impl IndexedSurface {
     /// Takes the surface; the index is built on first use.
     pub fn new(surface: Surface) -> Self {
-        Self { surface, index: Once::new() }
+        Self { surface, index: Once::new(), general: false }
+    }
+
+    /// As [`Self::new`], but elementary shapes are searched like any other: for tests that compare the two.
+    #[doc(hidden)]
+    pub fn general(surface: Surface) -> Self {
+        Self { general: true, ..Self::new(surface) }
     }
 
     /// The surface.
@@ -93,7 +113,13 @@ impl IndexedSurface {
     /// # Errors
     /// [`Error::OutOfMemory`]; [`Error::Cancelled`] when `poll` said so.
     pub fn index(&self, poll: Poll) -> Result<&SurfaceIndex, Error> {
-        self.index.get_or_build(|| SurfaceIndex::new(&self.surface, poll))
+        self.index.get_or_build(|| {
+            let mut index = SurfaceIndex::new(&self.surface, poll)?;
+            if !self.general {
+                index.recognise();
+            }
+            Ok(index)
+        })
     }
 
     /// Builds the index if it was not there.

@@ -1,0 +1,226 @@
+//! Elementary shapes given as NURBS: lines, circles, planes, cylinders, cones, spheres, ring tori.
+//!
+//! ```text
+//!   fit        a few points and normals propose a carrier, least squares settle it        (`fit`)
+//!   deviation  Bernstein coefficients prove that the whole shape lies along it            (`deviation`)
+//!   nearest    distance of a query to the carrier, in closed form: a bound for the shape
+//!   table      the carrier's nearest place -> piece and local parameters                  (`table`)
+//! ```
+//!
+//! Recognition looks at points only: degree, knots, weights, poles and what was trimmed away play no part. What lies farther
+//! than [`MOST_DEVIATION`] from every carrier has none, and is searched like any shape.
+//!
+//! References: Pratt, *Direct least-squares fitting of algebraic surfaces*, 1987; Lukács, Martin, Marshall, *Faithful
+//! least-squares fitting of spheres, cylinders, cones and tori*, 1998.
+//! Limits: tori that touch or cross themselves have no carrier; nor have shapes on whose lines of constant parameter the
+//! carrier's own coordinates are not constant (their parameters are not found in closed form).
+
+mod linear;
+
+mod form;
+
+mod fit;
+
+mod deviation;
+
+mod table;
+
+use crate::bounds::{HALF_ULP, Vector, dot, norm, sub};
+use crate::jet::BezierPatch;
+
+pub use table::Table;
+
+/// Greatest distance of a shape from its carrier, for a box diagonal of 1 to 2. Far below the accuracy of a query, far
+/// above what rounding does to poles (1e-16 of the largest coordinate).
+pub const MOST_DEVIATION: f64 = 1e-12;
+
+/// What a carrier is, in its own frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    /// The third axis (of curves).
+    Line,
+    /// About the third axis (of curves).
+    Circle {
+        /// Radius.
+        radius: f64,
+    },
+    /// Perpendicular to the third axis.
+    Plane,
+    /// About the third axis.
+    Cylinder {
+        /// Radius.
+        radius: f64,
+    },
+    /// The part of a cone about the third axis that lies on its positive side, tip in the origin.
+    Cone {
+        /// Sine of the half angle.
+        sin: f64,
+        /// Its cosine.
+        cos: f64,
+    },
+    /// About the origin.
+    Sphere {
+        /// Radius.
+        radius: f64,
+    },
+    /// About the third axis; it neither touches nor crosses itself.
+    Torus {
+        /// Radius of the circle of centres.
+        major: f64,
+        /// Radius of the tube.
+        minor: f64,
+    },
+}
+
+/// An elementary shape near which all points of a curve or surface lie. Lengths are the index's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Carrier {
+    /// What it is.
+    pub kind: Kind,
+    /// Origin of its frame.
+    pub origin: Vector,
+    /// Axes of its frame.
+    pub axes: [Vector; 3],
+    /// The carrier's points near the shape have their coordinates in here: planes x and y; in the second place lines and
+    /// cylinders z, cones the length from the tip. Others do not use it.
+    pub bounds: [[f64; 2]; 2],
+    /// No point of the shape is farther from the carrier.
+    pub deviation: f64,
+    /// Distance of the origin, plus radii: what the rounding of a distance is relative to.
+    pub size: f64,
+}
+
+/// The place of a carrier that is nearest to a query.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// The distance.
+    pub distance: f64,
+    /// A carrier's point within `r` of the query is within `sqrt(spread (r^2 - distance^2))` of the place.
+    pub spread: f64,
+    /// The carrier's two coordinates of the place as directions in a plane: an angle is its own direction, a length `x`
+    /// is (x, 1).
+    pub towards: [[f64; 2]; 2],
+}
+
+/// Half ulps of a carrier's distance, relative to the lengths that meet in it.
+const DISTANCE_STEPS: f64 = 64.0;
+
+impl Carrier {
+    /// A point in the carrier's frame.
+    pub fn local(&self, point: Vector) -> Vector {
+        let v = sub(point, self.origin);
+        self.axes.map(|axis| dot(axis, v))
+    }
+
+    /// How far [`Place::distance`] may be off, for a query `size` from the origin of the index.
+    pub fn rounding(&self, size: f64) -> f64 {
+        DISTANCE_STEPS * HALF_ULP * (2.0 + size + self.size)
+    }
+
+    /// The nearest place to a query.
+    pub fn nearest(&self, query: Vector) -> Place {
+        let [x, y, z] = self.local(query);
+        let clamped = |x: f64, k: usize| x.max(self.bounds[k][0]).min(self.bounds[k][1]);
+        let rho = (x * x + y * y).sqrt();
+        let place = |distance: f64, spread: f64, towards: [[f64; 2]; 2]| Place {
+            distance,
+            spread,
+            towards,
+        };
+        match self.kind {
+            Kind::Line => {
+                let end = clamped(z, 1);
+                place(norm([x, y, z - end]), 1.0, [[end, 1.0], [end, 1.0]])
+            }
+            Kind::Circle { radius } => {
+                place(length(rho - radius, z), radius / rho, [[x, y], [x, y]])
+            }
+            Kind::Plane => {
+                let (a, b) = (clamped(x, 0), clamped(y, 1));
+                place(norm([x - a, y - b, z]), 1.0, [[a, 1.0], [b, 1.0]])
+            }
+            Kind::Cylinder { radius } => {
+                let end = clamped(z, 1);
+                let spread = (radius / rho).max(1.0);
+                place(length(rho - radius, z - end), spread, [[x, y], [end, 1.0]])
+            }
+            Kind::Cone { sin, cos } => {
+                let (along, height) = (rho * sin + z * cos, rho * cos - z * sin);
+                let end = clamped(along, 1);
+                let spread = (end * sin / rho).max(1.0);
+                place(length(height, along - end), spread, [[x, y], [end, 1.0]])
+            }
+            Kind::Sphere { radius } => {
+                let size = length(rho, z);
+                place((size - radius).abs(), radius / size, [[x, y], [rho, z]])
+            }
+            Kind::Torus { major, minor } => {
+                let out = rho - major;
+                let from_tube = length(out, z);
+                let foot = major + minor * (out / from_tube);
+                let spread = (minor / from_tube).max(foot / rho);
+                place((from_tube - minor).abs(), spread, [[x, y], [out, z]])
+            }
+        }
+    }
+}
+
+fn length(x: f64, y: f64) -> f64 {
+    (x * x + y * y).sqrt()
+}
+
+/// A Bezier piece, as the index has it. A curve is a surface whose second degree is 0.
+pub struct Piece<'a> {
+    /// Its poles.
+    pub net: BezierPatch<'a>,
+    /// Origin of the poles.
+    pub center: Vector,
+    /// How far the exact shape may be from what the poles say.
+    pub error: f64,
+}
+
+/// The pieces of a shape: `rows` along s, `columns` along t, piece (a, b) has the number `a * columns + b`.
+pub struct Pieces<'a> {
+    /// Number along s.
+    pub rows: usize,
+    /// Number along t.
+    pub columns: usize,
+    /// Whether they are those of a curve.
+    pub is_curve: bool,
+    /// Piece by number.
+    pub piece: &'a dyn Fn(usize) -> Piece<'a>,
+}
+
+/// A carrier with the way back to the pieces.
+#[derive(Clone, Debug)]
+pub struct Analytic {
+    /// The carrier.
+    pub carrier: Carrier,
+    /// Rows, columns: from a direction of [`Place::towards`] to a piece in that direction and the parameter in it.
+    pub tables: [Table; 2],
+    /// Which direction of [`Place::towards`] belongs to rows; the other one belongs to columns.
+    pub rows_first: bool,
+    columns: usize,
+}
+
+impl Analytic {
+    /// The carrier of a shape, if it has one.
+    pub fn of(pieces: &Pieces) -> Option<Self> {
+        let carrier = fit::carrier(pieces)?;
+        let (carrier, tables, rows_first) = table::tables(carrier, pieces)?;
+        Some(Self { carrier, tables, rows_first, columns: pieces.columns })
+    }
+
+    /// The piece and local parameters of a place.
+    pub fn locate(&self, place: &Place) -> (usize, [f64; 2]) {
+        let own = usize::from(!self.rows_first);
+        let (row, s) = self.tables[0].find(place.towards[own]);
+        let (column, t) = self.tables[1].find(place.towards[1 - own]);
+        (row * self.columns + column, [s, t])
+    }
+
+    /// Bytes held beside the struct itself.
+    pub fn memory(&self) -> usize {
+        self.tables.iter().map(Table::memory).sum()
+    }
+}
