@@ -30,6 +30,8 @@ mod ties;
 
 mod local;
 
+mod elementary;
+
 mod curve;
 
 mod surface;

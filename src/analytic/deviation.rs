@@ -89,9 +89,7 @@ impl Moved {
         };
         let away = |k: usize| norm([0, 1, 2].map(|c| self.poles[c][k])) / self.poles[3][k];
         let count = self.degree.count();
-        let most = |side: usize| {
-            (0..count).filter(|&k| on(side, k)).map(away).fold(0.0, f64::max)
-        };
+        let most = |side: usize| (0..count).filter(|&k| on(side, k)).map(away).fold(0.0, f64::max);
         let side = (0..4).find(|&side| most(side) <= TIP && last[side / 2] > 0)?;
         self.error += most(side);
         for k in (0..count).filter(|&k| on(side, k)) {

@@ -11,9 +11,7 @@
 //! Reference: Pottmann, Wallner, *Computational Line Geometry*, 2001 (the complex of lines that meet an axis).
 
 use super::deviation::proven;
-use super::linear::{
-    add_square, any_frame, fitted, frame, least_direction, solved, unit,
-};
+use super::linear::{add_square, any_frame, fitted, frame, least_direction, solved, unit};
 use super::{Carrier, Kind, MOST_DEVIATION, Pieces};
 use crate::bounds::{Vector, add, cross, dot, norm, scaled, sub};
 
@@ -48,7 +46,8 @@ fn place(share: f64, count: usize) -> (usize, f64) {
 impl Samples {
     /// The point at shares of the two directions.
     pub fn point(pieces: &Pieces, share: [f64; 2]) -> Vector {
-        let ((row, s), (column, t)) = (place(share[0], pieces.rows), place(share[1], pieces.columns));
+        let ((row, s), (column, t)) =
+            (place(share[0], pieces.rows), place(share[1], pieces.columns));
         let piece = (pieces.piece)(row * pieces.columns + column);
         add(piece.net.jet(s, t, [0.0; 3]).d, piece.center)
     }
@@ -177,8 +176,7 @@ fn sphere(samples: &Samples) -> Option<Carrier> {
     let [x, y, z, k] = fitted(samples.points.iter().map(row))?;
     let square = k + x * x + y * y + z * z;
     let axes = any_frame([0.0, 0.0, 1.0]);
-    (square > 0.0)
-        .then(|| made(Kind::Sphere { radius: square.sqrt() }, add(mean, [x, y, z]), axes))
+    (square > 0.0).then(|| made(Kind::Sphere { radius: square.sqrt() }, add(mean, [x, y, z]), axes))
 }
 
 fn torus(samples: &Samples) -> Option<Carrier> {
@@ -212,9 +210,7 @@ impl Carrier {
         let out = [x / rho, y / rho, 0.0];
         let up: Residual = (z, [0.0, 0.0, 1.0], [0.0; 2]);
         match self.kind {
-            Kind::Line => {
-                ((x, [1.0, 0.0, 0.0], [0.0; 2]), Some((y, [0.0, 1.0, 0.0], [0.0; 2])))
-            }
+            Kind::Line => ((x, [1.0, 0.0, 0.0], [0.0; 2]), Some((y, [0.0, 1.0, 0.0], [0.0; 2]))),
             Kind::Circle { radius } => ((rho - radius, out, [-1.0, 0.0]), Some(up)),
             Kind::Plane => (up, None),
             Kind::Cylinder { radius } => ((rho - radius, out, [-1.0, 0.0]), None),

@@ -87,7 +87,11 @@ impl Form {
     /// The same polynomial with the degree one higher in direction 0 or 1.
     pub fn elevated(&self, direction: usize) -> Self {
         let mut degree = self.degree;
-        if direction == 0 { degree.s += 1 } else { degree.t += 1 };
+        if direction == 0 {
+            degree.s += 1
+        } else {
+            degree.t += 1
+        };
         let absolute: Vec<f64> = self.value.iter().map(|x| x.abs()).collect();
         let own = elevated(&absolute, self.degree, direction);
         let passed = elevated(&self.error, self.degree, direction);

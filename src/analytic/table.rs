@@ -152,7 +152,11 @@ impl Table {
         for _ in 0..STEPS {
             let mut work = sides;
             let (value, slope) = bernstein(&mut work, self.degree, s);
-            if value > 0.0 { low = s } else { high = s }
+            if value > 0.0 {
+                low = s
+            } else {
+                high = s
+            }
             let mut next = s - value / slope;
             if !(next > low && next < high) {
                 next = 0.5 * (low + high);
@@ -229,11 +233,8 @@ fn is_constant(carrier: &Carrier, pieces: &Pieces, own: usize, k: usize) -> bool
 
 /// The plane curves of coordinate `own` along the isoline in the middle, in direction `k`.
 fn table(carrier: &Carrier, pieces: &Pieces, own: usize, k: usize) -> Option<Table> {
-    let (count, other) = if k == 0 {
-        (pieces.rows, pieces.columns / 2)
-    } else {
-        (pieces.columns, pieces.rows / 2)
-    };
+    let (count, other) =
+        if k == 0 { (pieces.rows, pieces.columns / 2) } else { (pieces.columns, pieces.rows / 2) };
     let middle = if pieces.is_curve { 0.0 } else { 0.5 };
     let mut poles = Vec::new();
     let mut degree = 0;

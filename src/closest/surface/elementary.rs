@@ -1,0 +1,108 @@
+//! Feet on elementary surfaces.
+
+use super::super::elementary::{BESIDE_EDGE, LAST_STEP, OVER, Prospect, STEPS, settled};
+use super::super::proof::{Proof, Site};
+use super::super::{FootPoint, flag};
+use super::SurfaceSearch;
+use crate::bounds::{Vector, norm, sub};
+use crate::index::{IndexedSurface, SurfaceIndex};
+use crate::refine::Method;
+
+impl IndexedSurface {
+    /// The answer in closed form; otherwise a start for the general search, if there is one.
+    pub(super) fn elementary(
+        &self,
+        index: &SurfaceIndex,
+        query: Vector,
+        search: &SurfaceSearch,
+        (gap, allowed): (f64, f64),
+    ) -> Result<FootPoint, Option<Site>> {
+        let analytic = index.analytic.as_ref().ok_or(None)?;
+        if search.options.method != Method::Auto {
+            return Err(None);
+        }
+        let prospect = Prospect::new(analytic, search.query).ok_or(None)?;
+        let start = Site { piece: prospect.piece, at: prospect.at };
+        let (site, d, taken) = search.stepped(start).ok_or(Some(start))?;
+        let at = search.free_parameters(site);
+        let inside = at == search.parameters(site);
+        if !inside || !prospect.proves(norm(d), 0.5 * gap * index.frame.scale) {
+            return Err(Some(site));
+        }
+        let mut foot = self.foot_at(index, query, at, search.range);
+        if !prospect.certify(&mut foot, index.frame.scale, allowed) {
+            return Err(Some(site));
+        }
+        foot.iterations = taken;
+        foot.flags &= !flag::NOT_PROVEN;
+        Ok(foot)
+    }
+}
+
+impl SurfaceSearch<'_> {
+    /// As [`Self::parameters`], wherever the restriction ends.
+    fn free_parameters(&self, site: Site) -> [f64; 2] {
+        let patch = &self.index.patches[site.piece];
+        [patch.u.global(site.at[0]), patch.v.global(site.at[1])]
+    }
+
+    /// Takes the start that the carrier gave.
+    pub(super) fn start_from(&self, start: Site, proof: &mut Proof) {
+        if let Some(range) = self.local_range(start.piece) {
+            self.iterate_from(start.piece, start.at, range, self.options.method, proof);
+        }
+    }
+
+    /// Newton steps in the piece of `start`: the foot, its vector from the query, the evaluations. None when they leave
+    /// the piece, do not converge, or come near a collapsed edge.
+    fn stepped(&self, start: Site) -> Option<(Site, Vector, u32)> {
+        let (index, piece) = (self.index, start.piece);
+        let (columns, rows) = (index.columns, index.patches.len() / index.columns);
+        let (row, column) = (piece / columns, piece % columns);
+        let outer = [row == 0, row + 1 == rows, column == 0, column + 1 == columns];
+        let view = (index.net(piece), sub(self.query, index.patches[piece].center));
+        let mut at = start.at;
+        for taken in 1..=STEPS {
+            let side = [at[0], 1.0 - at[0], at[1], 1.0 - at[1]];
+            if (0..4).any(|k| index.collapsed[k] && outer[k] && side[k] < BESIDE_EDGE) {
+                return None;
+            }
+            let jet = view.0.jet(at[0], at[1], view.1);
+            let (g, h) = (jet.gradient(), jet.hessian());
+            let held = [0, 1].map(|k| {
+                let low = outer[2 * k] && at[k] == 0.0 && g[k] >= 0.0;
+                let high = outer[2 * k + 1] && at[k] == 1.0 && g[k] <= 0.0;
+                !index.closed[k] && (low || high)
+            });
+            let step = newton_step(g, h, held)?;
+            let to = [0, 1].map(|k| (at[k] + step[k]).clamp(0.0, 1.0));
+            for k in 0..2 {
+                let border = outer[2 * k + usize::from(step[k] > 0.0)] && !index.closed[k];
+                if !border && (at[k] + step[k] - to[k]).abs() > OVER {
+                    return None;
+                }
+            }
+            let size = [0, 1].map(|k| (to[k] - at[k]).abs());
+            at = to;
+            if size[0].max(size[1]) <= LAST_STEP {
+                return Some((Site { piece, at: at.map(settled) }, jet.d, taken as u32));
+            }
+        }
+        None
+    }
+}
+
+/// The Newton step in the parameters that are not held; none where its model has no clear minimum.
+fn newton_step(g: [f64; 2], [a, b, c]: [f64; 3], held: [bool; 2]) -> Option<[f64; 2]> {
+    let along = |g: f64, h: f64| (h > 0.0).then_some(-g / h);
+    match held {
+        [true, true] => Some([0.0; 2]),
+        [true, false] => Some([0.0, along(g[1], c)?]),
+        [false, true] => Some([along(g[0], a)?, 0.0]),
+        [false, false] => {
+            let det = a * c - b * b;
+            let clear = a > 0.0 && c > 0.0 && det > 1e-6 * a * c;
+            clear.then(|| [(b * g[1] - c * g[0]) / det, (b * g[0] - a * g[1]) / det])
+        }
+    }
+}
