@@ -20,10 +20,14 @@ pub const STEPS: usize = 6;
 pub const LAST_STEP: f64 = 3e-9;
 /// How far a step may lead over the line to the next piece and still end on it.
 pub const OVER: f64 = 1e-13;
-/// Parameters nearer to the side of a piece than this are on it.
-pub const ON_SIDE: f64 = 4e-16;
-/// Local parameters nearer to a collapsed edge than this are left to the general search, which treats it as a point.
-pub const BESIDE_EDGE: f64 = 1e-4;
+/// Parameters nearer to the side of a piece than this are on it: points are not known better than to a dozen half ulps of
+/// the shape, and a foot on a seam or border should say so.
+pub const ON_SIDE: f64 = 2e-15;
+/// Local parameters nearer to a collapsed edge than this are left to the general search, which treats it as a point: the
+/// parameter along it has lost too many digits there.
+pub const BESIDE_EDGE: f64 = 1e-6;
+/// Nearer than this they are on the edge.
+pub const ON_EDGE: f64 = 1e-13;
 
 /// What the carrier says about a query.
 pub struct Prospect {

@@ -1,6 +1,8 @@
 //! Feet on elementary surfaces.
 
-use super::super::elementary::{BESIDE_EDGE, LAST_STEP, OVER, Prospect, STEPS, settled};
+use super::super::elementary::{
+    BESIDE_EDGE, LAST_STEP, ON_EDGE, OVER, Prospect, STEPS, settled,
+};
 use super::super::proof::{Proof, Site};
 use super::super::{FootPoint, flag};
 use super::SurfaceSearch;
@@ -23,11 +25,17 @@ impl IndexedSurface {
         }
         let prospect = Prospect::new(analytic, search.query).ok_or(None)?;
         let start = Site { piece: prospect.piece, at: prospect.at };
-        let (site, d, taken) = search.stepped(start).ok_or(Some(start))?;
+        let found = match search.beside_collapsed(start) {
+            Some((_, away)) if away > ON_EDGE => return Err(None),
+            Some((edge, _)) => Some(search.on_collapsed(edge, start)),
+            None => search.stepped(start),
+        };
+        let (site, d, taken) = found.ok_or(Some(start))?;
         let at = search.free_parameters(site);
         let inside = at == search.parameters(site);
         if !inside || !prospect.proves(norm(d), 0.5 * gap * index.frame.scale) {
-            return Err(Some(site));
+            // The general search looks at collapsed points itself.
+            return Err(Some(site).filter(|site| search.beside_collapsed(*site).is_none()));
         }
         let mut foot = self.foot_at(index, query, at, search.range);
         if !prospect.certify(&mut foot, index.frame.scale, allowed) {
@@ -53,20 +61,38 @@ impl SurfaceSearch<'_> {
         }
     }
 
+    /// The sides of a patch that are borders of the surface.
+    fn outer(&self, piece: usize) -> [bool; 4] {
+        let (columns, rows) = (self.index.columns, self.index.patches.len() / self.index.columns);
+        let (row, column) = (piece / columns, piece % columns);
+        [row == 0, row + 1 == rows, column == 0, column + 1 == columns]
+    }
+
+    /// The collapsed edge beside which a place lies, and how far from it.
+    fn beside_collapsed(&self, site: Site) -> Option<(usize, f64)> {
+        let (outer, [s, t]) = (self.outer(site.piece), site.at);
+        let away = [s, 1.0 - s, t, 1.0 - t];
+        let on = |k: &usize| self.index.collapsed[*k] && outer[*k] && away[*k] < BESIDE_EDGE;
+        (0..4).find(on).map(|k| (k, away[k]))
+    }
+
+    /// The point of a collapsed edge, with the parameter along it that the general search gives.
+    fn on_collapsed(&self, edge: usize, near: Site) -> (Site, Vector, u32) {
+        let mut at = [0.0; 2];
+        at[edge / 2] = (edge % 2) as f64;
+        let site = Site { at, ..near };
+        let query = sub(self.query, self.index.patches[site.piece].center);
+        (site, self.index.net(site.piece).jet(at[0], at[1], query).d, 1)
+    }
+
     /// Newton steps in the piece of `start`: the foot, its vector from the query, the evaluations. None when they leave
-    /// the piece, do not converge, or come near a collapsed edge.
+    /// the piece or do not converge.
     fn stepped(&self, start: Site) -> Option<(Site, Vector, u32)> {
         let (index, piece) = (self.index, start.piece);
-        let (columns, rows) = (index.columns, index.patches.len() / index.columns);
-        let (row, column) = (piece / columns, piece % columns);
-        let outer = [row == 0, row + 1 == rows, column == 0, column + 1 == columns];
+        let outer = self.outer(piece);
         let view = (index.net(piece), sub(self.query, index.patches[piece].center));
         let mut at = start.at;
         for taken in 1..=STEPS {
-            let side = [at[0], 1.0 - at[0], at[1], 1.0 - at[1]];
-            if (0..4).any(|k| index.collapsed[k] && outer[k] && side[k] < BESIDE_EDGE) {
-                return None;
-            }
             let jet = view.0.jet(at[0], at[1], view.1);
             let (g, h) = (jet.gradient(), jet.hessian());
             let held = [0, 1].map(|k| {
