@@ -138,17 +138,12 @@ impl IndexedCurve {
         let whole = self.whole(index, query, floor);
         let range = self.range(options);
         let search = CurveSearch { index, whole, query: q, range, options, steps };
-        let start = if traced {
-            None
-        } else {
-            match self.elementary(index, query, &search, (gap, allowed)) {
-                Ok(mut foot) => {
-                    foot.flags |= if hint.is_some() { flag::HINT_USED } else { 0 };
-                    return foot;
-                }
-                Err(start) => start,
+        if !traced {
+            if let Some(mut foot) = self.elementary(index, query, &search, (gap, allowed)) {
+                foot.flags |= if hint.is_some() { flag::HINT_USED } else { 0 };
+                return foot;
             }
-        };
+        }
         let mut tell = |step: u32, site: Site, d: f64| {
             if let Some(trace) = &mut trace {
                 trace(step, search.parameter(site), 0.0, d / index.frame.scale);
@@ -156,9 +151,6 @@ impl IndexedCurve {
         };
         let watch: Option<Watch> = if traced { Some(&mut tell) } else { None };
         let mut proof = Proof::new(0.5 * gap * index.frame.scale, budget, watch);
-        if let Some(start) = start {
-            search.start_from(start, &mut proof);
-        }
         if let Some(u) = hint {
             search.start_at(u, &mut proof);
         }

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! A foot that attains the bound is the nearest point, whatever was trimmed away. Where none does (the carrier's place is
-//! trimmed away, the query is near an axis or a centre) the general search answers, with the foot as its start.
+//! trimmed away), or where another could tie (the query is near an axis or a centre), the general search answers.
 
 use super::FootPoint;
 use crate::analytic::{Analytic, Place};

@@ -151,17 +151,12 @@ impl IndexedSurface {
         let whole = self.whole(index, query, floor);
         let range = self.range(options);
         let search = SurfaceSearch { index, whole, query: q, range, options, steps };
-        let start = if traced {
-            None
-        } else {
-            match self.elementary(index, query, &search, (gap, allowed)) {
-                Ok(mut foot) => {
-                    foot.flags |= if hint.is_some() { flag::HINT_USED } else { 0 };
-                    return foot;
-                }
-                Err(start) => start,
+        if !traced {
+            if let Some(mut foot) = self.elementary(index, query, &search, (gap, allowed)) {
+                foot.flags |= if hint.is_some() { flag::HINT_USED } else { 0 };
+                return foot;
             }
-        };
+        }
         let mut tell = |step: u32, site: Site, d: f64| {
             if let Some(trace) = &mut trace {
                 let [u, v] = search.parameters(site);
@@ -170,9 +165,6 @@ impl IndexedSurface {
         };
         let watch: Option<Watch> = if traced { Some(&mut tell) } else { None };
         let mut proof = Proof::new(0.5 * gap * index.frame.scale, budget, watch);
-        if let Some(start) = start {
-            search.start_from(start, &mut proof);
-        }
         if let Some(at) = hint {
             search.start_at(at, &mut proof);
         }

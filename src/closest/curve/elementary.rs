@@ -1,7 +1,7 @@
 //! Feet on lines and circles.
 
 use super::super::elementary::{LAST_STEP, OVER, Prospect, STEPS, settled};
-use super::super::proof::{Proof, Site};
+use super::super::proof::Site;
 use super::super::{FootPoint, flag};
 use super::CurveSearch;
 use crate::bounds::{Vector, norm, sub};
@@ -9,44 +9,37 @@ use crate::index::{CurveIndex, IndexedCurve};
 use crate::refine::Method;
 
 impl IndexedCurve {
-    /// The answer in closed form; otherwise a start for the general search, if there is one.
+    /// The answer in closed form; none where the general search has to answer.
     pub(super) fn elementary(
         &self,
         index: &CurveIndex,
         query: Vector,
         search: &CurveSearch,
         (gap, allowed): (f64, f64),
-    ) -> Result<FootPoint, Option<Site>> {
-        let analytic = index.analytic.as_ref().ok_or(None)?;
+    ) -> Option<FootPoint> {
+        let analytic = index.analytic.as_ref()?;
         if search.options.method != Method::Auto {
-            return Err(None);
+            return None;
         }
-        let prospect = Prospect::new(analytic, search.query).ok_or(None)?;
+        let prospect = Prospect::new(analytic, search.query)?;
         let start = Site { piece: prospect.piece, at: [prospect.at[0], 0.0] };
-        let (site, d, taken) = search.stepped(start).ok_or(Some(start))?;
+        let (site, d, taken) = search.stepped(start)?;
         let u = index.segments[site.piece].u.global(site.at[0]);
         let inside = u == search.parameter(site);
         if !inside || !prospect.proves(norm(d), 0.5 * gap * index.frame.scale) {
-            return Err(Some(site));
+            return None;
         }
         let mut foot = self.foot_at(index, query, u, search.range);
         if !prospect.certify(&mut foot, index.frame.scale, allowed) {
-            return Err(Some(site));
+            return None;
         }
         foot.iterations = taken;
         foot.flags &= !flag::NOT_PROVEN;
-        Ok(foot)
+        Some(foot)
     }
 }
 
 impl CurveSearch<'_> {
-    /// Takes the start that the carrier gave.
-    pub(super) fn start_from(&self, start: Site, proof: &mut Proof) {
-        if let Some(range) = self.local_range(start.piece) {
-            self.iterate_from(start.piece, start.at[0], range, proof);
-        }
-    }
-
     /// Newton steps in the piece of `start`: the foot, its vector from the query, the evaluations. None when they leave
     /// the piece or do not converge.
     fn stepped(&self, start: Site) -> Option<(Site, Vector, u32)> {

@@ -1,9 +1,7 @@
 //! Feet on elementary surfaces.
 
-use super::super::elementary::{
-    BESIDE_EDGE, LAST_STEP, ON_EDGE, OVER, Prospect, STEPS, settled,
-};
-use super::super::proof::{Proof, Site};
+use super::super::elementary::{BESIDE_EDGE, LAST_STEP, ON_EDGE, OVER, Prospect, STEPS, settled};
+use super::super::proof::Site;
 use super::super::{FootPoint, flag};
 use super::SurfaceSearch;
 use crate::bounds::{Vector, norm, sub};
@@ -11,39 +9,38 @@ use crate::index::{IndexedSurface, SurfaceIndex};
 use crate::refine::Method;
 
 impl IndexedSurface {
-    /// The answer in closed form; otherwise a start for the general search, if there is one.
+    /// The answer in closed form; none where the general search has to answer.
     pub(super) fn elementary(
         &self,
         index: &SurfaceIndex,
         query: Vector,
         search: &SurfaceSearch,
         (gap, allowed): (f64, f64),
-    ) -> Result<FootPoint, Option<Site>> {
-        let analytic = index.analytic.as_ref().ok_or(None)?;
+    ) -> Option<FootPoint> {
+        let analytic = index.analytic.as_ref()?;
         if search.options.method != Method::Auto {
-            return Err(None);
+            return None;
         }
-        let prospect = Prospect::new(analytic, search.query).ok_or(None)?;
+        let prospect = Prospect::new(analytic, search.query)?;
         let start = Site { piece: prospect.piece, at: prospect.at };
         let found = match search.beside_collapsed(start) {
-            Some((_, away)) if away > ON_EDGE => return Err(None),
+            Some((_, away)) if away > ON_EDGE => return None,
             Some((edge, _)) => Some(search.on_collapsed(edge, start)),
             None => search.stepped(start),
         };
-        let (site, d, taken) = found.ok_or(Some(start))?;
+        let (site, d, taken) = found?;
         let at = search.free_parameters(site);
         let inside = at == search.parameters(site);
         if !inside || !prospect.proves(norm(d), 0.5 * gap * index.frame.scale) {
-            // The general search looks at collapsed points itself.
-            return Err(Some(site).filter(|site| search.beside_collapsed(*site).is_none()));
+            return None;
         }
         let mut foot = self.foot_at(index, query, at, search.range);
         if !prospect.certify(&mut foot, index.frame.scale, allowed) {
-            return Err(Some(site));
+            return None;
         }
         foot.iterations = taken;
         foot.flags &= !flag::NOT_PROVEN;
-        Ok(foot)
+        Some(foot)
     }
 }
 
@@ -52,13 +49,6 @@ impl SurfaceSearch<'_> {
     fn free_parameters(&self, site: Site) -> [f64; 2] {
         let patch = &self.index.patches[site.piece];
         [patch.u.global(site.at[0]), patch.v.global(site.at[1])]
-    }
-
-    /// Takes the start that the carrier gave.
-    pub(super) fn start_from(&self, start: Site, proof: &mut Proof) {
-        if let Some(range) = self.local_range(start.piece) {
-            self.iterate_from(start.piece, start.at, range, self.options.method, proof);
-        }
     }
 
     /// The sides of a patch that are borders of the surface.
