@@ -303,8 +303,8 @@ fn hints_restrictions_and_the_accuracy_leave_elementary_answers_right() {
                 ours.closest(query, Some(hint), &QueryOptions::default(), &mut workspace, None);
             assert!(hinted.flags & flag::HINT_USED != 0);
             if plain.iterations <= 2 && hinted.iterations <= 2 && plain.flags & TIES == 0 {
-                let flags = plain.flags | flag::HINT_USED;
-                assert_eq!(hinted, FootPoint { flags, ..plain }, "{round} {name}");
+                let (flags, iterations) = (plain.flags | flag::HINT_USED, hinted.iterations);
+                assert_eq!(hinted, FootPoint { flags, iterations, ..plain }, "{round} {name}");
             }
             let domain = [a[0].min(b[0]), a[0].max(b[0]), a[1].min(b[1]), a[1].max(b[1])];
             let options = QueryOptions { domain: Some(domain), ..QueryOptions::default() };
