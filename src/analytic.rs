@@ -25,10 +25,17 @@ mod deviation;
 
 mod table;
 
+mod extent;
+
 use crate::bounds::{HALF_ULP, Vector, dot, norm, sub};
 use crate::jet::BezierPatch;
 
+pub use extent::Arc;
+use extent::End;
 pub use table::Table;
+
+/// A vector of a plane.
+type Direction = [f64; 2];
 
 /// Greatest distance of a shape from its carrier, for a box diagonal of 1 to 2: a fifth of the default accuracy. Poles written
 /// with twelve digits are that good; rounding of poles is far below.
@@ -84,6 +91,10 @@ pub struct Carrier {
     /// The carrier's points near the shape have their coordinates in here: planes x and y; in the second place lines and
     /// cylinders z, cones the length from the tip. Others do not use it.
     pub bounds: [[f64; 2]; 2],
+    /// The angles about the third axis that the shape takes, when it does not go round.
+    pub sector: Option<Arc>,
+    /// The angles of the meridian that it takes, for spheres and tori.
+    pub arc: Option<Arc>,
     /// No point of the shape is farther from the carrier.
     pub deviation: f64,
     /// Distance of the origin, plus radii: what the rounding of a distance is relative to.
@@ -120,52 +131,101 @@ impl Carrier {
     /// The nearest place to a query.
     pub fn nearest(&self, query: Vector) -> Place {
         let [x, y, z] = self.local(query);
-        let clamped = |x: f64, k: usize| x.max(self.bounds[k][0]).min(self.bounds[k][1]);
-        let rho = (x * x + y * y).sqrt();
-        let place = |distance: f64, spread: f64, towards: [[f64; 2]; 2]| Place {
-            distance,
-            spread,
-            towards,
-        };
         match self.kind {
             Kind::Line => {
-                let end = clamped(z, 1);
-                place(norm([x, y, z - end]), 1.0, [[end, 1.0], [end, 1.0]])
-            }
-            Kind::Circle { radius } => {
-                place(length(rho - radius, z), radius / rho, [[x, y], [x, y]])
+                let end = self.clamped(z, 1);
+                let towards = [[end, 1.0]; 2];
+                Place { distance: norm([x, y, z - end]), spread: 1.0, towards }
             }
             Kind::Plane => {
-                let (a, b) = (clamped(x, 0), clamped(y, 1));
-                place(norm([x - a, y - b, z]), 1.0, [[a, 1.0], [b, 1.0]])
+                let (a, b) = (self.clamped(x, 0), self.clamped(y, 1));
+                let towards = [[a, 1.0], [b, 1.0]];
+                Place { distance: norm([x - a, y - b, z]), spread: 1.0, towards }
             }
+            _ => self.nearest_turned([x, y], z),
+        }
+    }
+
+    fn clamped(&self, x: f64, k: usize) -> f64 {
+        x.max(self.bounds[k][0]).min(self.bounds[k][1])
+    }
+
+    /// The nearest place of a shape of revolution: the half plane of the query, or that at the end of the sector, and in
+    /// it the meridian.
+    fn nearest_turned(&self, at: Direction, z: f64) -> Place {
+        let rho = length(at);
+        let whole = End { direction: at, along: rho, aside: 0.0, hold: 1.0 };
+        let end = self.sector.and_then(|arc| arc.beyond(at)).unwrap_or(whole);
+        let meridian = self.nearest_in_half_plane([end.along, z]);
+        let turned = meridian.radius / (rho * end.hold);
+        Place {
+            distance: length([meridian.distance, end.aside]),
+            spread: meridian.spread.max(turned),
+            towards: [end.direction, meridian.towards],
+        }
+    }
+
+    fn nearest_in_half_plane(&self, [rho, z]: Direction) -> Meridian {
+        let on_line = |distance: Direction, radius: f64, end: f64| Meridian {
+            distance: length(distance),
+            spread: 1.0,
+            radius,
+            towards: [end, 1.0],
+        };
+        match self.kind {
             Kind::Cylinder { radius } => {
-                let end = clamped(z, 1);
-                let spread = (radius / rho).max(1.0);
-                place(length(rho - radius, z - end), spread, [[x, y], [end, 1.0]])
+                let end = self.clamped(z, 1);
+                on_line([rho - radius, z - end], radius, end)
             }
             Kind::Cone { sin, cos } => {
                 let (along, height) = (rho * sin + z * cos, rho * cos - z * sin);
-                let end = clamped(along, 1);
-                let spread = (end * sin / rho).max(1.0);
-                place(length(height, along - end), spread, [[x, y], [end, 1.0]])
+                let end = self.clamped(along, 1);
+                on_line([height, along - end], end * sin, end)
             }
-            Kind::Sphere { radius } => {
-                let size = length(rho, z);
-                place((size - radius).abs(), radius / size, [[x, y], [rho, z]])
+            Kind::Sphere { radius } => self.nearest_on_arc([rho, z], radius, 0.0),
+            Kind::Torus { major, minor } => self.nearest_on_arc([rho - major, z], minor, major),
+            Kind::Circle { radius } => {
+                let towards = [0.0; 2];
+                Meridian { distance: length([rho - radius, z]), spread: 0.0, radius, towards }
             }
-            Kind::Torus { major, minor } => {
-                let out = rho - major;
-                let from_tube = length(out, z);
-                let foot = major + minor * (out / from_tube);
-                let spread = (minor / from_tube).max(foot / rho);
-                place((from_tube - minor).abs(), spread, [[x, y], [out, z]])
+            Kind::Line | Kind::Plane => unreachable!("no shapes of revolution"),
+        }
+    }
+
+    /// The nearest place of a circle about the origin, `out` from the axis, or of its arc.
+    fn nearest_on_arc(&self, at: Direction, radius: f64, out: f64) -> Meridian {
+        let size = length(at);
+        match self.arc.and_then(|arc| arc.beyond(at)) {
+            None => Meridian {
+                distance: (size - radius).abs(),
+                spread: radius / size,
+                radius: out + radius * (at[0] / size),
+                towards: at,
+            },
+            Some(end) => {
+                let [x, y] = end.direction;
+                Meridian {
+                    distance: length([at[0] - radius * x, at[1] - radius * y]),
+                    spread: radius / (size * end.hold),
+                    radius: out + radius * x,
+                    towards: end.direction,
+                }
             }
         }
     }
 }
 
-fn length(x: f64, y: f64) -> f64 {
+/// The nearest place of a meridian in its half plane.
+struct Meridian {
+    distance: f64,
+    /// As in [`Place`], within the half plane.
+    spread: f64,
+    /// Distance of the place from the axis.
+    radius: f64,
+    towards: Direction,
+}
+
+fn length([x, y]: Direction) -> f64 {
     (x * x + y * y).sqrt()
 }
 
@@ -208,6 +268,8 @@ impl Analytic {
     pub fn of(pieces: &Pieces) -> Option<Self> {
         let carrier = fit::carrier(pieces)?;
         let (carrier, tables, rows_first) = table::tables(carrier, pieces)?;
+        let first = usize::from(!rows_first);
+        let carrier = extent::trimmed(carrier, pieces, [&tables[first], &tables[1 - first]]);
         Some(Self { carrier, tables, rows_first, columns: pieces.columns })
     }
 

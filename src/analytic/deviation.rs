@@ -19,19 +19,20 @@ use crate::bounds::{HALF_ULP, dot, norm, sub};
 const MOVE_STEPS: f64 = 40.0;
 
 /// Poles nearer to a cone's tip than this are the tip.
-const TIP: f64 = 1e-13;
+pub const TIP: f64 = 1e-13;
 
 /// The poles of a piece in the carrier's frame.
-struct Moved {
+pub struct Moved {
     /// Homogeneous x, y, z, and weights.
-    poles: [Vec<f64>; 4],
+    pub poles: [Vec<f64>; 4],
     degree: Bidegree,
     /// How far the exact shape may be from them.
     error: f64,
 }
 
 impl Moved {
-    fn new(piece: &Piece, carrier: &Carrier) -> Self {
+    /// Moves a piece.
+    pub fn new(piece: &Piece, carrier: &Carrier) -> Self {
         let (net, count) = (&piece.net, piece.net.degree.count());
         let shift = sub(piece.center, carrier.origin);
         let mut poles: [Vec<f64>; 4] = Default::default();
@@ -68,6 +69,15 @@ impl Moved {
     fn from_axis(&self) -> f64 {
         let [x, y, _, w] = &self.poles;
         (0..w.len()).map(|k| norm([x[k] / w[k], y[k] / w[k], 0.0])).fold(0.0, f64::max)
+    }
+
+    /// Least and greatest distance from the third axis; none when the weight is not proven positive.
+    pub fn from_axis_range(&self) -> Option<[f64; 2]> {
+        let w = self.form(3);
+        let (across, weights) =
+            (Form::sum_of_squares(&[&self.form(0), &self.form(1)]), w.times(&w));
+        let [low, high] = across.range_over(&weights)?;
+        Some([low.max(0.0).sqrt(), high.sqrt()])
     }
 
     /// A bound of `|sum of the first squares - radius^2|` over the weight's.

@@ -101,7 +101,8 @@ fn made(kind: Kind, origin: Vector, axes: [Vector; 3]) -> Carrier {
         Kind::Torus { major, minor } => major + minor,
     };
     let size = norm(origin) + radii;
-    Carrier { kind, origin, axes, bounds: [[0.0; 2]; 2], deviation: 0.0, size }
+    let bounds = [[0.0; 2]; 2];
+    Carrier { kind, origin, axes, bounds, sector: None, arc: None, deviation: 0.0, size }
 }
 
 /// The normal of the plane through the points.

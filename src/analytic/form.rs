@@ -111,16 +111,27 @@ impl Form {
 
     /// The greatest `|self| / divisor`; none when the divisor is not proven positive.
     pub fn most_over(&self, divisor: &Self) -> Option<f64> {
+        self.range_over(divisor).map(|[low, high]| high.max(-low))
+    }
+
+    /// Numbers between which `self / divisor` lies; none when the divisor is not proven positive.
+    pub fn range_over(&self, divisor: &Self) -> Option<[f64; 2]> {
         debug_assert!(self.degree == divisor.degree);
-        let mut most = 0.0f64;
+        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
         for k in 0..self.value.len() {
-            let below = (divisor.value[k] - divisor.error[k]) * (1.0 - 4.0 * HALF_ULP);
+            let (x, e) = (divisor.value[k], divisor.error[k]);
+            let below = (x - e) * (1.0 - 4.0 * HALF_ULP);
+            let above = (x + e) * (1.0 + 4.0 * HALF_ULP);
             if below.is_nan() || below < LEAST_DIVISOR {
                 return None;
             }
-            most = most.max((self.value[k].abs() + self.error[k]) / below);
+            let (low, high) = (self.value[k] - self.error[k], self.value[k] + self.error[k]);
+            range[0] = range[0].min(low / if low < 0.0 { below } else { above });
+            range[1] = range[1].max(high / if high < 0.0 { above } else { below });
         }
-        most.is_finite().then_some(most * (1.0 + 8.0 * HALF_ULP))
+        let grown = |x: f64, outward: f64| x + outward * 8.0 * HALF_ULP * x.abs();
+        let range = [grown(range[0], -1.0), grown(range[1], 1.0)];
+        range.iter().all(|x| x.is_finite()).then_some(range)
     }
 
     /// Whether all of it is proven positive.

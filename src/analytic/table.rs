@@ -12,7 +12,7 @@
 
 use super::fit::{PLACES, Samples};
 use super::linear::{frame, unit};
-use super::{Carrier, Kind, Pieces};
+use super::{Carrier, Direction, Kind, Pieces, length};
 use crate::bezier::isocurve;
 use crate::bounds::{Vector, add, cross, dot, norm, scaled, sub};
 use crate::knots::MAX_DEGREE;
@@ -26,14 +26,13 @@ const STEPS: usize = 8;
 /// A step of the local parameter below which the next one is rounding.
 const LAST_STEP: f64 = 1e-9;
 
-type Direction = [f64; 2];
-
-fn turn(a: Direction, b: Direction) -> f64 {
+/// `|a| |b|` times the sine of the angle from a to b.
+pub fn turn(a: Direction, b: Direction) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
 
-/// Grows from 0 to 4 with the angle of (x, y) from the first axis.
-fn pseudo_angle(x: f64, y: f64) -> f64 {
+/// Grows from 0 to 4 with the angle of (x, y) from the first axis; opposite directions differ by 2.
+pub fn pseudo_angle(x: f64, y: f64) -> f64 {
     let share = y / (x.abs() + y.abs());
     if x < 0.0 {
         2.0 - share
@@ -170,6 +169,13 @@ impl Table {
         s
     }
 
+    /// The directions of its first and last end, counterclockwise.
+    pub fn ends(&self) -> [Direction; 2] {
+        let last = self.poles[self.poles.len() - 1];
+        let last = last.map(|x| x / length(last));
+        if self.sense > 0.0 { [self.start, last] } else { [last, self.start] }
+    }
+
     /// Bytes held.
     pub fn memory(&self) -> usize {
         self.ends.capacity() * 8 + self.poles.capacity() * 16
@@ -185,10 +191,6 @@ fn bernstein(work: &mut [f64], n: usize, s: f64) -> (f64, f64) {
     }
     let slope = n as f64 * (work[1] - work[0]);
     ((1.0 - s) * work[0] + s * work[1], slope)
-}
-
-fn length(a: Direction) -> f64 {
-    (a[0] * a[0] + a[1] * a[1]).sqrt()
 }
 
 impl Carrier {
