@@ -131,19 +131,12 @@ impl Carrier {
     /// The nearest place to a query.
     pub fn nearest(&self, query: Vector) -> Place {
         let [x, y, z] = self.local(query);
-        match self.kind {
-            Kind::Line => {
-                let end = self.clamped(z, 1);
-                let towards = [[end, 1.0]; 2];
-                Place { distance: norm([x, y, z - end]), spread: 1.0, towards }
-            }
-            Kind::Plane => {
-                let (a, b) = (self.clamped(x, 0), self.clamped(y, 1));
-                let towards = [[a, 1.0], [b, 1.0]];
-                Place { distance: norm([x - a, y - b, z]), spread: 1.0, towards }
-            }
-            _ => self.nearest_turned([x, y], z),
+        if self.kind != Kind::Plane {
+            return self.nearest_turned([x, y], z);
         }
+        let (a, b) = (self.clamped(x, 0), self.clamped(y, 1));
+        let towards = [[a, 1.0], [b, 1.0]];
+        Place { distance: norm([x - a, y - b, z]), spread: 1.0, towards }
     }
 
     fn clamped(&self, x: f64, k: usize) -> f64 {
@@ -188,7 +181,12 @@ impl Carrier {
                 let towards = [0.0; 2];
                 Meridian { distance: length([rho - radius, z]), spread: 0.0, radius, towards }
             }
-            Kind::Line | Kind::Plane => unreachable!("no shapes of revolution"),
+            Kind::Line => {
+                let end = self.clamped(z, 1);
+                on_line([rho, z - end], 0.0, end)
+            }
+            // All of it: what of a plane is left is no sector, but a rectangle.
+            Kind::Plane => on_line([z, 0.0], rho, rho),
         }
     }
 
@@ -281,8 +279,87 @@ impl Analytic {
         (row * self.columns + column, [s, t])
     }
 
-    /// Bytes held beside the struct itself.
+    /// Bytes held.
     pub fn memory(&self) -> usize {
-        self.tables.iter().map(Table::memory).sum()
+        size_of::<Self>() + self.tables.iter().map(Table::memory).sum::<usize>()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bounds::{add, scaled};
+
+    fn direction(angle: f64) -> Direction {
+        [angle.cos(), angle.sin()]
+    }
+
+    fn carrier(kind: Kind, sector: [f64; 2], arc: [f64; 2]) -> Carrier {
+        let between = |[a, b]: [f64; 2]| Arc::new(direction(a), direction(b));
+        Carrier {
+            kind,
+            origin: [0.3, -0.2, 0.1],
+            axes: linear::any_frame([1.0, 2.0, -0.7]),
+            bounds: [[-1.0, 0.5], [0.2, 0.9]],
+            sector: Some(between(sector)),
+            arc: Some(between(arc)),
+            deviation: 0.0,
+            size: 2.0,
+        }
+    }
+
+    /// The point of a carrier with two coordinates given as directions.
+    fn point(carrier: &Carrier, towards: [Direction; 2]) -> Vector {
+        let unit = |a: Direction| a.map(|x| x / length(a));
+        let ([x, y], [a, b]) = (unit(towards[0]), unit(towards[1]));
+        let (rho, z) = match carrier.kind {
+            Kind::Cylinder { radius } => (radius, towards[1][0]),
+            Kind::Cone { sin, cos } => (towards[1][0] * sin, towards[1][0] * cos),
+            Kind::Sphere { radius } => (radius * a, radius * b),
+            Kind::Torus { major, minor } => (major + minor * a, minor * b),
+            _ => unreachable!("not asked"),
+        };
+        let own = [rho * x, rho * y, z];
+        (0..3).fold(carrier.origin, |p, k| add(p, scaled(carrier.axes[k], own[k])))
+    }
+
+    #[test]
+    fn nothing_on_a_carrier_is_nearer_than_its_place_and_what_is_as_near_is_around_it() {
+        let kinds = [
+            Kind::Cylinder { radius: 0.7 },
+            Kind::Cone { sin: 0.6, cos: 0.8 },
+            Kind::Sphere { radius: 0.9 },
+            Kind::Torus { major: 0.8, minor: 0.3 },
+        ];
+        let mut seed = 3u64;
+        let mut random = |low: f64, high: f64| {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            low + (high - low) * (seed >> 11) as f64 / (1u64 << 53) as f64
+        };
+        for round in 0..2000 {
+            let kind = kinds[round % 4];
+            let from = random(0.0, 6.0);
+            let sector = [from, from + random(0.2, 5.8)];
+            let low = if round % 4 == 2 { random(-1.5, 0.0) } else { random(0.0, 6.0) };
+            let way = if round % 4 == 2 { random(0.2, 1.5) } else { random(0.2, 5.8) };
+            let (arc, carrier) = ([low, low + way], carrier(kind, sector, [low, low + way]));
+            let query = [0, 1, 2].map(|_| random(-1.5, 1.5));
+            let place = carrier.nearest(query);
+            let foot = point(&carrier, place.towards);
+            assert!((norm(sub(foot, query)) - place.distance).abs() < 1e-14, "{carrier:?}");
+            for _ in 0..100 {
+                let along = |[a, b]: [f64; 2], share: f64| direction(a + share * (b - a));
+                let second = match kind {
+                    Kind::Cylinder { .. } | Kind::Cone { .. } => [random(0.2, 0.9), 1.0],
+                    _ => along(arc, random(0.0, 1.0)),
+                };
+                let other = point(&carrier, [along(sector, random(0.0, 1.0)), second]);
+                let (way, move_) = (sub(other, query), sub(other, foot));
+                let over = dot(way, way) - place.distance * place.distance;
+                assert!(over > -1e-13, "{carrier:?} {query:?}");
+                let most = place.spread * (over + 1e-13) * (1.0 + 1e-9);
+                assert!(dot(move_, move_) <= most + 1e-13, "{carrier:?} {query:?} {other:?}");
+            }
+        }
     }
 }

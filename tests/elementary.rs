@@ -108,17 +108,21 @@ fn asked(random: &mut Random, near: Vector) -> Vector {
 const PLACE: u32 = flag::EDGE | flag::CORNER | flag::SEAM | flag::COLLAPSED | flag::CREASE;
 const TIES: u32 = flag::TIE | flag::CONTINUUM;
 
-/// What two answers must have in common, when one is that of the general search; whether the places are the same.
-fn agree(ours: &FootPoint, general: &FootPoint, floor: f64, context: &dyn Fn() -> String) -> bool {
+/// What two answers must have in common, when one is that of the general search.
+fn agree(
+    ours: &FootPoint,
+    general: &FootPoint,
+    [floor, gap]: [f64; 2],
+    context: &dyn Fn() -> String,
+) {
     let apart = norm(sub(ours.point, general.point));
     assert!(ours.flags & flag::NOT_PROVEN == 0, "{} {ours:?} {general:?}", context());
     assert!(ours.lower_bound <= general.distance + floor, "{} {ours:?} {general:?}", context());
     assert!(general.lower_bound <= ours.distance + floor, "{} {ours:?} {general:?}", context());
-    assert!(
-        (ours.distance - general.distance).abs() <= 4.0 * floor,
-        "{} {ours:?} {general:?}",
-        context()
-    );
+    // The general search may end up to its gap above the least distance.
+    let over = if ours.flags & TIES == 0 { 4.0 * floor } else { gap };
+    assert!(ours.distance <= general.distance + over, "{} {ours:?} {general:?}", context());
+    assert!(general.distance <= ours.distance + gap, "{} {ours:?} {general:?}", context());
     // The general search may leave open what closed forms decide, never the other way round.
     let more = ours.flags & flag::TIE & !general.flags;
     assert!(more == 0, "{} {ours:?} {general:?}", context());
@@ -133,15 +137,15 @@ fn agree(ours: &FootPoint, general: &FootPoint, floor: f64, context: &dyn Fn() -
             context()
         );
     }
-    apart <= 1e-6
 }
 
 #[test]
 fn elementary_surfaces_in_any_form_are_recognised_and_answered_like_any_other() {
     let mut random = Random(4);
     let mut closed_forms = 0;
-    let mut asked_in_all = 0;
-    for round in 0..400 {
+    let (mut asked_in_all, mut missed) = (0, 0);
+    let rounds = 1500;
+    for round in 0..rounds {
         let scale = [1.0, 1.0, 1e-6, 1e6][random.whole(0, 3)];
         let offset = scale * [0.0, 10.0, 1000.0][random.whole(0, 2)];
         let motion = Motion::random(&mut random, scale, offset);
@@ -149,7 +153,12 @@ fn elementary_surfaces_in_any_form_are_recognised_and_answered_like_any_other() 
         let ours = IndexedSurface::new(surface.clone());
         let general = IndexedSurface::general(surface.clone());
         let index = ours.index(&mut || false).unwrap();
-        assert!(index.analytic.is_some(), "{round} {name} {motion:?} {surface:?}");
+        // Far from the origin poles have few digits: small pieces then look like anything.
+        if index.analytic.is_none() {
+            assert!(offset > 100.0 * scale, "{round} {name} {motion:?} {surface:?}");
+            missed += 1;
+            continue;
+        }
         let (options, mut workspace) = (QueryOptions::default(), Workspace::default());
         let [u0, u1, v0, v1] = surface.domain();
         for _ in 0..40 {
@@ -163,15 +172,15 @@ fn elementary_surfaces_in_any_form_are_recognised_and_answered_like_any_other() 
             let a = ours.closest(query, None, &options, &mut workspace, None);
             let b = general.closest(query, None, &options, &mut workspace, None);
             let context = || format!("{round} {name} {p:?} {query:?}");
-            // The general search may end up to its gap above the least distance.
             let gap = 1.01e-10 * index.frame.diagonal + 1e-12 * b.distance;
-            agree(&a, &b, floor + if b.flags & TIES != 0 { gap } else { 0.0 }, &context);
+            agree(&a, &b, [floor, gap], &context);
             let least = carrier(p) * scale;
-            assert!(a.distance >= least - floor, "{} {a:?} {least}", context());
+            assert!(a.distance >= least * (1.0 - 1e-13) - floor, "{} {a:?} {least}", context());
             closed_forms += usize::from(a.iterations <= 2);
             asked_in_all += 1;
         }
     }
+    assert!(missed * 200 <= rounds, "{missed}");
     assert!(2 * closed_forms > asked_in_all, "{closed_forms} of {asked_in_all}");
 }
 
@@ -193,7 +202,7 @@ fn own(motion: &Motion, p: Vector) -> Vector {
 #[test]
 fn lines_and_circles_in_any_form_are_recognised_and_answered_like_any_other() {
     let mut random = Random(5);
-    for round in 0..400 {
+    for round in 0..1000 {
         let scale = [1.0, 1e-6, 1e6][random.whole(0, 2)];
         let motion = Motion::random(&mut random, scale, scale * [0.0, 100.0][round % 2]);
         let is_line = round % 4 == 0;
@@ -219,13 +228,17 @@ fn lines_and_circles_in_any_form_are_recognised_and_answered_like_any_other() {
             let b = general.closest(query, None, &options, &mut workspace, None);
             let gap = 1.01e-10 * index.frame.diagonal + 1e-12 * b.distance;
             let context = || format!("{round} {p:?} {query:?}");
-            agree(&a, &b, floor + if b.flags & TIES != 0 { gap } else { 0.0 }, &context);
+            agree(&a, &b, [floor, gap], &context);
             let least = if is_line {
                 length(p[1] - 0.3, p[2])
             } else {
                 length(length(p[0], p[1]) - 1.0, p[2])
             };
-            assert!(a.distance >= least * scale - floor, "{} {a:?} {least}", context());
+            assert!(
+                a.distance >= least * scale * (1.0 - 1e-13) - floor,
+                "{} {a:?} {least}",
+                context()
+            );
         }
     }
 }
@@ -258,7 +271,7 @@ fn what_is_nearly_elementary_is_never_claimed_nearer_to_it_than_it_is() {
         .unwrap();
         let ours = IndexedSurface::new(moved.clone());
         let index = ours.index(&mut || false).unwrap();
-        recognised[usize::from(size > 1e-10)] += usize::from(index.analytic.is_some());
+        recognised[usize::from(size > 1e-9)] += usize::from(index.analytic.is_some());
         let [u0, u1, v0, v1] = moved.domain();
         let (options, mut workspace) = (QueryOptions::default(), Workspace::default());
         for _ in 0..20 {
@@ -286,7 +299,7 @@ fn what_is_nearly_elementary_is_never_claimed_nearer_to_it_than_it_is() {
 #[test]
 fn hints_restrictions_and_the_accuracy_leave_elementary_answers_right() {
     let mut random = Random(7);
-    for round in 0..150 {
+    for round in 0..300 {
         let motion = Motion::random(&mut random, 1.0, 3.0);
         let (name, surface, _) = sheet(&mut random, &motion);
         let ours = IndexedSurface::new(surface.clone());

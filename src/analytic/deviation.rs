@@ -18,8 +18,9 @@ use crate::bounds::{HALF_ULP, dot, norm, sub};
 /// Half ulps of a pole's move into the carrier's frame, relative to its distance: 20 for the frame, 8 for what is done.
 const MOVE_STEPS: f64 = 40.0;
 
-/// Poles nearer to a cone's tip than this are the tip.
-pub const TIP: f64 = 1e-13;
+/// Poles nearer to a cone's tip, or to the axis of a sector, than this are moved there: far from the origin, rounding of
+/// poles is not far below. What they move is added to the deviation.
+pub const TIP: f64 = 4e-12;
 
 /// The poles of a piece in the carrier's frame.
 pub struct Moved {
@@ -66,13 +67,13 @@ impl Moved {
     }
 
     /// Greatest distance from the third axis.
-    fn from_axis(&self) -> f64 {
+    fn axis_distance(&self) -> f64 {
         let [x, y, _, w] = &self.poles;
         (0..w.len()).map(|k| norm([x[k] / w[k], y[k] / w[k], 0.0])).fold(0.0, f64::max)
     }
 
     /// Least and greatest distance from the third axis; none when the weight is not proven positive.
-    pub fn from_axis_range(&self) -> Option<[f64; 2]> {
+    pub fn axis_range(&self) -> Option<[f64; 2]> {
         let w = self.form(3);
         let (across, weights) =
             (Form::sum_of_squares(&[&self.form(0), &self.form(1)]), w.times(&w));
@@ -125,19 +126,20 @@ impl Moved {
 
     fn torus_defect(&self, major: f64, minor: f64) -> Option<f64> {
         let [x, y, z, w] = [0, 1, 2, 3].map(|c| self.form(c));
-        let (across, weights) = (Form::sum_of_squares(&[&x, &y]), w.times(&w));
-        let difference = (major - minor) * (major + minor);
-        let sum = across.plus(1.0, &z.times(&z)).plus(difference, &weights);
-        let centres = across.times(&weights);
-        let defect = sum.times(&sum).plus(-4.0 * major * major, &centres);
+        let (weights, height) = (w.times(&w), z.times(&z));
+        // All terms are of the size of the tube, whose thinness so costs no digits.
+        let radii = major * major + minor * minor;
+        let out = Form::sum_of_squares(&[&x, &y, &z]).plus(-radii, &weights);
+        let up = height.plus(-minor * minor, &weights);
+        let defect = out.times(&out).plus(4.0 * major * major, &up.times(&weights));
         let most = defect.most_over(&weights.times(&weights))?;
-        Some(most / (minor * difference))
+        Some(most / (minor * (major - minor) * (major + minor)))
     }
 
     /// A bound of the distance of every point from the carrier.
     fn deviation(&mut self, kind: Kind) -> Option<f64> {
         let own = match kind {
-            Kind::Line => Some(self.from_axis()),
+            Kind::Line => Some(self.axis_distance()),
             Kind::Plane => Some(self.height()),
             Kind::Circle { radius } => {
                 self.square_defect(2, radius).map(|e| e / radius + self.height())

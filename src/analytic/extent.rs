@@ -43,7 +43,8 @@ pub struct End {
 }
 
 impl Arc {
-    fn new(from: Direction, to: Direction) -> Self {
+    /// The arc between two directions of length 1.
+    pub fn new(from: Direction, to: Direction) -> Self {
         let (sin, cos) = (turn(from, to), from[0] * to[0] + from[1] * to[1]);
         Self { from, to, cotangent: sin / (1.0 - cos) }
     }
@@ -90,10 +91,9 @@ pub fn trimmed(mut carrier: Carrier, pieces: &Pieces, tables: [&Table; 2]) -> Ca
         }
         Kind::Circle { .. } | Kind::Cylinder { .. } | Kind::Cone { .. } => {}
     }
-    if let Some(arc) = sector(&carrier, pieces, tables[0].ends()[0]) {
+    if let Some((arc, moved)) = sector(&carrier, pieces, tables[0].ends()[0]) {
         carrier.sector = Some(arc);
-        // Poles on the axis have no direction; they were moved onto it.
-        carrier.deviation += TIP;
+        carrier.deviation += moved;
     }
     carrier
 }
@@ -107,16 +107,18 @@ fn zone([low, high]: [f64; 2], radius: f64) -> Arc {
     Arc::new(at(low), at(high))
 }
 
-/// The angles about the axis in which all poles lie, those of each piece within half a turn.
-fn sector(carrier: &Carrier, pieces: &Pieces, start: Direction) -> Option<Arc> {
+/// The angles about the axis in which all poles lie, those of each piece within half a turn, and how far poles were
+/// moved onto the axis, where they have no direction.
+fn sector(carrier: &Carrier, pieces: &Pieces, start: Direction) -> Option<(Arc, f64)> {
     let from = turned(start, -OPENED);
-    let mut last = (0.0, from);
+    let (mut last, mut moved) = ((0.0, from), 0.0f64);
     for k in 0..pieces.rows * pieces.columns {
         let Moved { poles: [x, y, _, w], .. } = Moved::new(&(pieces.piece)(k), carrier);
         let (mut low, mut high) = (4.0f64, 0.0f64);
         for i in 0..w.len() {
             let at = [x[i], y[i]];
             if length(at) <= TIP * w[i] {
+                moved = moved.max(2.0 * length(at) / w[i]);
                 continue;
             }
             let ahead = from[0] * at[0] + from[1] * at[1];
@@ -133,7 +135,7 @@ fn sector(carrier: &Carrier, pieces: &Pieces, start: Direction) -> Option<Arc> {
     }
     let size = length(last.1);
     let to = turned(last.1.map(|x| x / size), OPENED);
-    (last.0 > 0.0 && last.0 < 4.0 - LEAST_LEFT_OUT).then(|| Arc::new(from, to))
+    (last.0 > 0.0 && last.0 < 4.0 - LEAST_LEFT_OUT).then(|| (Arc::new(from, to), moved))
 }
 
 /// The angles of a torus's tube, from `ends`, when the ranges of height and distance from the axis leave out all others.
@@ -146,7 +148,7 @@ fn tube(
 ) -> Option<Arc> {
     let mut out = [f64::INFINITY, f64::NEG_INFINITY];
     for k in 0..pieces.rows * pieces.columns {
-        let range = Moved::new(&(pieces.piece)(k), carrier).from_axis_range()?;
+        let range = Moved::new(&(pieces.piece)(k), carrier).axis_range()?;
         out = [out[0].min(range[0]), out[1].max(range[1])];
     }
     let margin = 2.0 * carrier.deviation;

@@ -80,9 +80,12 @@ impl Samples {
     }
 }
 
+/// A kind of carrier through samples, if there is one.
+type Proposal = fn(&Samples) -> Option<Carrier>;
+
 /// The carrier of a shape, proven.
 pub fn carrier(pieces: &Pieces) -> Option<Carrier> {
-    let (samples, proposals): (_, &[fn(&Samples) -> Option<Carrier>]) = if pieces.is_curve {
+    let (samples, proposals): (_, &[Proposal]) = if pieces.is_curve {
         (Samples::of_curve(pieces), &[line, circle])
     } else {
         (Samples::of_surface(pieces), &[plane, cylinder, cone, sphere, torus])

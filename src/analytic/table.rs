@@ -299,7 +299,8 @@ pub fn tables(carrier: Carrier, pieces: &Pieces) -> Option<(Carrier, [Table; 2],
     if pieces.is_curve {
         let own = table(&carrier, pieces, 0, 0)?;
         let none = Table { ends: vec![4.0], poles: vec![[1.0, 0.0]; 2], degree: 1, ..own.clone() };
-        return Some((carrier, [own, none], true));
+        // A line's coordinate is its second one.
+        return Some((carrier, [own, none], carrier.kind != Kind::Line));
     }
     for axes in frames(&carrier, pieces) {
         let turned = Carrier { axes, ..carrier };

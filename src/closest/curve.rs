@@ -6,6 +6,7 @@ mod ties;
 pub use ties::{neighbour, shortest, wrapped};
 
 use super::certificate::squared_error;
+use super::elementary::raise;
 use super::line::{Given, Line, LineMemory, search_line};
 use super::local::{LOCAL_FLAGS, WholeCurve, curve_start};
 use super::proof::{Proof, Site, Watch, note_loose};
@@ -165,6 +166,9 @@ impl IndexedCurve {
         };
         let mut foot = self.foot_at(index, query, search.parameter(site), search.range);
         certify(&mut foot, &proof, &index.frame, allowed);
+        if foot.flags & flag::NOT_PROVEN != 0 {
+            raise(&mut foot, index.analytic.as_deref(), q, index.frame.scale, allowed);
+        }
         if foot.flags & flag::NOT_PROVEN != 0 {
             self.settle_grain(index, query, &search, &mut foot, &proof, allowed);
         }

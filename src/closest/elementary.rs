@@ -8,7 +8,7 @@
 //! A foot that attains the bound is the nearest point, whatever was trimmed away. Where none does (the carrier's place is
 //! trimmed away), or where another could tie (the query is near an axis or a centre), the general search answers.
 
-use super::FootPoint;
+use super::{FootPoint, flag};
 use crate::analytic::{Analytic, Place};
 use crate::bounds::{Vector, norm};
 
@@ -81,6 +81,23 @@ impl Prospect {
     pub fn certify(&self, foot: &mut FootPoint, scale: f64, allowed: f64) -> bool {
         foot.lower_bound = (self.lower / scale).min(foot.distance);
         foot.distance - foot.lower_bound <= allowed
+    }
+}
+
+/// Raises the bound of a foot that is not proven to that of the carrier: near a centre the search may end before it.
+pub fn raise(
+    foot: &mut FootPoint,
+    analytic: Option<&Analytic>,
+    query: Vector,
+    scale: f64,
+    allowed: f64,
+) {
+    let Some(prospect) = analytic.and_then(|analytic| Prospect::new(analytic, query)) else {
+        return;
+    };
+    foot.lower_bound = foot.lower_bound.max((prospect.lower / scale).min(foot.distance));
+    if foot.distance - foot.lower_bound <= allowed {
+        foot.flags &= !flag::NOT_PROVEN;
     }
 }
 

@@ -3,6 +3,7 @@
 mod elementary;
 mod ties;
 
+use super::elementary::raise;
 use super::local::{LOCAL_FLAGS, WholeSurface, surface_start};
 use super::patch::{PatchMemory, Sheet, search_patch};
 use super::proof::{Proof, Site, Watch, note_loose};
@@ -180,6 +181,9 @@ impl IndexedSurface {
         };
         let mut foot = self.foot_at(index, query, search.parameters(site), search.range);
         certify(&mut foot, &proof, &index.frame, allowed);
+        if foot.flags & flag::NOT_PROVEN != 0 {
+            raise(&mut foot, index.analytic.as_deref(), q, index.frame.scale, allowed);
+        }
         if foot.flags & flag::NOT_PROVEN != 0 {
             self.settle_grain(index, query, &search, &mut foot, &proof, allowed);
         }

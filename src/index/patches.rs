@@ -69,7 +69,7 @@ pub struct SurfaceIndex {
     /// Whether the edges u0, u1, v0, v1 are collapsed.
     pub collapsed: [bool; 4],
     /// The elementary surface that this one is, if it is one.
-    pub analytic: Option<Analytic>,
+    pub analytic: Option<Box<Analytic>>,
     nets: Vec<f64>,
     tensors: Vec<f64>,
 }
@@ -274,7 +274,7 @@ impl SurfaceIndex {
         (self.nets.capacity() + self.tensors.capacity()) * 8
             + self.patches.capacity() * size_of::<Patch>()
             + self.tree.memory()
-            + self.analytic.as_ref().map_or(0, Analytic::memory)
+            + self.analytic.as_ref().map_or(0, |analytic| analytic.memory())
     }
 }
 

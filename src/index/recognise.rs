@@ -15,7 +15,8 @@ impl SurfaceIndex {
             Piece { net: self.net(k), center: patch.center, error: own + patch.spread }
         };
         let (rows, columns) = (self.patches.len() / self.columns, self.columns);
-        self.analytic = Analytic::of(&Pieces { rows, columns, is_curve: false, piece: &piece });
+        self.analytic =
+            Analytic::of(&Pieces { rows, columns, is_curve: false, piece: &piece }).map(Box::new);
     }
 }
 
@@ -34,6 +35,7 @@ impl CurveIndex {
             }
         };
         let rows = self.segments.len();
-        self.analytic = Analytic::of(&Pieces { rows, columns: 1, is_curve: true, piece: &piece });
+        self.analytic =
+            Analytic::of(&Pieces { rows, columns: 1, is_curve: true, piece: &piece }).map(Box::new);
     }
 }

@@ -38,7 +38,7 @@ pub struct CurveIndex {
     /// Whether the curve is closed.
     pub closed: bool,
     /// The line or circle that the curve is, if it is one.
-    pub analytic: Option<Analytic>,
+    pub analytic: Option<Box<Analytic>>,
     degree: usize,
     rational: bool,
     nets: Vec<f64>,
@@ -163,7 +163,7 @@ impl CurveIndex {
         (self.nets.capacity() + self.tensors.capacity()) * 8
             + self.segments.capacity() * size_of::<Segment>()
             + self.tree.memory()
-            + self.analytic.as_ref().map_or(0, Analytic::memory)
+            + self.analytic.as_ref().map_or(0, |analytic| analytic.memory())
     }
 }
 

@@ -17,7 +17,7 @@ impl IndexedCurve {
         search: &CurveSearch,
         (gap, allowed): (f64, f64),
     ) -> Option<FootPoint> {
-        let analytic = index.analytic.as_ref()?;
+        let analytic = index.analytic.as_deref()?;
         if search.options.method != Method::Auto {
             return None;
         }
