@@ -32,6 +32,8 @@ mod ties;
 
 mod local;
 
+mod elementary;
+
 mod curve;
 
 mod surface;

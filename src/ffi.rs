@@ -256,8 +256,8 @@ pub extern "C" fn fpt_panic_test(threads: u32) -> fpt_status {
     guard(|| {
         let unreached = crate::closest::FootPoint::unreached();
         let mut out = [unreached; 1024];
-        // Tiles of 128 records go round the threads: this one lies in the second.
-        let work = |i, _: &mut ()| {
+        // Not in the first tile.
+        let work = |i, _: &mut crate::closest::Workspace| {
             if i == 200 { panic!("record {i} panics on purpose") } else { unreached }
         };
         Ok(crate::batch::run(&mut out, threads as usize, None, &work, &mut |_| false)?)

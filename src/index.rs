@@ -17,6 +17,7 @@
 mod around;
 mod patches;
 mod piece;
+mod recognise;
 mod segments;
 mod shape;
 

@@ -25,6 +25,8 @@ pub mod jet;
 
 pub mod tree;
 
+pub mod analytic;
+
 pub mod index;
 
 pub mod refine;

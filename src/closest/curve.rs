@@ -1,10 +1,12 @@
 //! Nearest point of a curve.
 
+mod elementary;
 mod ties;
 
 pub use ties::{neighbour, shortest, wrapped};
 
 use super::certificate::squared_error;
+use super::elementary::raise;
 use super::line::{Given, Line, LineMemory, Source, search_line};
 use super::local::{LOCAL_FLAGS, WholeCurve, curve_start};
 use super::proof::{Proof, Site, Watch, note_loose};
@@ -137,6 +139,12 @@ impl IndexedCurve {
         let whole = self.whole(index, query, floor);
         let range = self.range(options);
         let search = CurveSearch { index, whole, query: q, range, options, steps };
+        if !traced {
+            if let Some(mut foot) = self.elementary(index, query, &search, (gap, allowed)) {
+                foot.flags |= if hint.is_some() { flag::HINT_USED } else { 0 };
+                return foot;
+            }
+        }
         let mut tell = |step: u32, site: Site, d: f64| {
             if let Some(trace) = &mut trace {
                 trace(step, search.parameter(site), 0.0, d / index.frame.scale);
@@ -158,6 +166,9 @@ impl IndexedCurve {
         };
         let mut foot = self.foot_at(index, query, search.parameter(site), search.range);
         certify(&mut foot, &proof, &index.frame, allowed);
+        if foot.flags & flag::NOT_PROVEN != 0 {
+            raise(&mut foot, index.analytic.as_deref(), q, index.frame.scale, allowed);
+        }
         if foot.flags & flag::NOT_PROVEN != 0 {
             self.settle_grain(index, query, &search, &mut foot, &proof, allowed);
         }

@@ -1,7 +1,9 @@
 //! Nearest point of a surface.
 
+mod elementary;
 mod ties;
 
+use super::elementary::raise;
 use super::local::{LOCAL_FLAGS, WholeSurface, surface_start};
 use super::patch::{PatchMemory, Sheet, search_patch};
 use super::proof::{Proof, Site, Watch, note_loose};
@@ -150,6 +152,12 @@ impl IndexedSurface {
         let whole = self.whole(index, query, floor);
         let range = self.range(options);
         let search = SurfaceSearch { index, whole, query: q, range, options, steps };
+        if !traced {
+            if let Some(mut foot) = self.elementary(index, query, &search, (gap, allowed)) {
+                foot.flags |= if hint.is_some() { flag::HINT_USED } else { 0 };
+                return foot;
+            }
+        }
         let mut tell = |step: u32, site: Site, d: f64| {
             if let Some(trace) = &mut trace {
                 let [u, v] = search.parameters(site);
@@ -173,6 +181,9 @@ impl IndexedSurface {
         };
         let mut foot = self.foot_at(index, query, search.parameters(site), search.range);
         certify(&mut foot, &proof, &index.frame, allowed);
+        if foot.flags & flag::NOT_PROVEN != 0 {
+            raise(&mut foot, index.analytic.as_deref(), q, index.frame.scale, allowed);
+        }
         if foot.flags & flag::NOT_PROVEN != 0 {
             self.settle_grain(index, query, &search, &mut foot, &proof, allowed);
         }

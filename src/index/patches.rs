@@ -4,6 +4,7 @@ use super::piece::{
     Frame, LocalNet, MAX_TENSOR_BYTES, Span, balance_for, parts_for, position_steps,
     power_of_two_over, push_tensors, reserved, tensor_len,
 };
+use crate::analytic::Analytic;
 use crate::bezier::{Bidegree, extraction};
 use crate::bounds::{Aabb, HALF_ULP, Vector, add, extent, norm, sub};
 use crate::coefficients::Grid;
@@ -69,6 +70,8 @@ pub struct SurfaceIndex {
     pub closed: [bool; 2],
     /// Whether the edges u0, u1, v0, v1 are collapsed.
     pub collapsed: [bool; 4],
+    /// The elementary surface that this one is, if it is one.
+    pub analytic: Option<Box<Analytic>>,
     nets: Vec<f64>,
     lanes: Vec<Lane>,
     tensors: Vec<f64>,
@@ -130,6 +133,7 @@ impl SurfaceIndex {
             columns,
             closed: [surface.is_closed_u(), surface.is_closed_v()],
             collapsed: surface.collapsed_edges(),
+            analytic: None,
             nets: reserved(count * width)?,
             lanes: reserved(count * degree.count())?,
             grid: Grid::new(degree, rational, level),
@@ -296,6 +300,7 @@ impl SurfaceIndex {
             + self.tree.memory()
             + self.grid.memory()
             + self.edge_grids.iter().map(Grid::memory).sum::<usize>()
+            + self.analytic.as_ref().map_or(0, |analytic| analytic.memory())
     }
 }
 

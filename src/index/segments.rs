@@ -4,6 +4,7 @@ use super::piece::{
     Frame, LocalNet, MAX_TENSOR_BYTES, Span, balance_for, parts_for, position_steps,
     power_of_two_over, push_tensors, reserved, tensor_len,
 };
+use crate::analytic::Analytic;
 use crate::bezier::{Bidegree, extraction};
 use crate::bounds::{Aabb, HALF_ULP, Vector, add, extent};
 use crate::coefficients::Grid;
@@ -38,6 +39,8 @@ pub struct CurveIndex {
     pub tree: Tree,
     /// Whether the curve is closed.
     pub closed: bool,
+    /// The line or circle that the curve is, if it is one.
+    pub analytic: Option<Box<Analytic>>,
     degree: usize,
     rational: bool,
     nets: Vec<f64>,
@@ -65,6 +68,7 @@ impl CurveIndex {
             segments: reserved(spans.len())?,
             tree: Tree::new(&[], 0, 0),
             closed: curve.is_closed(),
+            analytic: None,
             degree: p,
             rational,
             nets: reserved(spans.len() * width)?,
@@ -170,6 +174,7 @@ impl CurveIndex {
             + self.segments.capacity() * size_of::<Segment>()
             + self.tree.memory()
             + self.grid.memory()
+            + self.analytic.as_ref().map_or(0, |analytic| analytic.memory())
     }
 }
 

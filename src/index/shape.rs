@@ -46,6 +46,7 @@ pub struct IndexedCurve {
     curve: Curve,
     level: Level,
     index: Once<CurveIndex>,
+    general: bool,
 }
 
 /// A surface and its search index.
@@ -54,6 +55,7 @@ pub struct IndexedSurface {
     surface: Surface,
     level: Level,
     index: Once<SurfaceIndex>,
+    general: bool,
 }
 
 impl IndexedCurve {
@@ -64,7 +66,13 @@ impl IndexedCurve {
 
     /// As [`Self::new`], with the vector instructions of a level: answers have the same bits at each.
     pub fn at_level(curve: Curve, level: Level) -> Self {
-        Self { curve, level, index: Once::new() }
+        Self { curve, level, index: Once::new(), general: false }
+    }
+
+    /// As [`Self::new`], but elementary shapes are searched like any other: for tests that compare the two.
+    #[doc(hidden)]
+    pub fn general(curve: Curve) -> Self {
+        Self { general: true, ..Self::new(curve) }
     }
 
     /// The curve.
@@ -77,7 +85,13 @@ impl IndexedCurve {
     /// # Errors
     /// [`Error::OutOfMemory`]; [`Error::Cancelled`] when `poll` said so.
     pub fn index(&self, poll: Poll) -> Result<&CurveIndex, Error> {
-        self.index.get_or_build(|| CurveIndex::new(&self.curve, self.level, poll))
+        self.index.get_or_build(|| {
+            let mut index = CurveIndex::new(&self.curve, self.level, poll)?;
+            if !self.general {
+                index.recognise();
+            }
+            Ok(index)
+        })
     }
 
     /// Bytes of the index, 0 before it is built.
@@ -102,7 +116,13 @@ impl IndexedSurface {
 
     /// As [`Self::new`], with the vector instructions of a level: answers have the same bits at each.
     pub fn at_level(surface: Surface, level: Level) -> Self {
-        Self { surface, level, index: Once::new() }
+        Self { surface, level, index: Once::new(), general: false }
+    }
+
+    /// As [`Self::new`], but elementary shapes are searched like any other: for tests that compare the two.
+    #[doc(hidden)]
+    pub fn general(surface: Surface) -> Self {
+        Self { general: true, ..Self::new(surface) }
     }
 
     /// The surface.
@@ -115,7 +135,13 @@ impl IndexedSurface {
     /// # Errors
     /// [`Error::OutOfMemory`]; [`Error::Cancelled`] when `poll` said so.
     pub fn index(&self, poll: Poll) -> Result<&SurfaceIndex, Error> {
-        self.index.get_or_build(|| SurfaceIndex::new(&self.surface, self.level, poll))
+        self.index.get_or_build(|| {
+            let mut index = SurfaceIndex::new(&self.surface, self.level, poll)?;
+            if !self.general {
+                index.recognise();
+            }
+            Ok(index)
+        })
     }
 
     /// Bytes of the index, 0 before it is built.
