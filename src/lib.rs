@@ -39,6 +39,8 @@ pub mod unwrap;
 
 pub mod normal;
 
+pub mod scene;
+
 pub mod callback;
 
 pub mod batch;

@@ -8,6 +8,7 @@ use super::certificate::squared_error;
 use super::line::{Given, Line, LineMemory, search_line};
 use super::local::{LOCAL_FLAGS, WholeCurve, curve_start};
 use super::proof::{Proof, Site, Watch, note_loose};
+use super::within::{Within, nothing_within};
 use super::{
     CONTINUUM_STEPS, FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, distance,
     far_foot, flag, grained, is_bad, is_coarse, mark_inversion, rounding_floor, search_floor,
@@ -44,7 +45,7 @@ impl IndexedCurve {
         let hint = hint.filter(|u| u.is_finite());
         match options.scope {
             Scope::Local => self.local(index, query, hint, options, workspace, trace),
-            Scope::Global => self.global(index, query, hint, options, workspace, trace),
+            Scope::Global => self.global(index, query, hint, None, options, workspace, trace),
         }
     }
 
@@ -84,7 +85,7 @@ impl IndexedCurve {
     }
 
     /// The gap that rounding leaves to a search.
-    fn floor(index: &CurveIndex, query: Vector) -> f64 {
+    pub(super) fn floor(index: &CurveIndex, query: Vector) -> f64 {
         search_floor(&index.frame, query, position_steps(index.degree()), index.is_rational())
     }
 
@@ -114,11 +115,13 @@ impl IndexedCurve {
         foot
     }
 
-    fn global(
+    /// The global search; `within`: only what is nearer than that counts, see [`nothing_within`].
+    pub(super) fn global(
         &self,
         index: &CurveIndex,
         query: Vector,
         hint: Option<f64>,
+        within: Option<Within>,
         options: &QueryOptions,
         workspace: &mut Workspace,
         mut trace: Option<Trace>,
@@ -144,12 +147,18 @@ impl IndexedCurve {
         };
         let watch: Option<Watch> = if traced { Some(&mut tell) } else { None };
         let mut proof = Proof::new(0.5 * gap * index.frame.scale, budget, watch);
+        if let Some(within) = within {
+            proof.begin_within(within.distance * index.frame.scale, within.direction);
+        }
         if let Some(u) = hint {
             search.start_at(u, &mut proof);
         }
         search.walk(workspace, &mut proof);
         search.polish(&mut proof);
         let Some(site) = proof.site else {
+            if within.is_some() {
+                return nothing_within(&proof, &index.frame);
+            }
             return far_foot(
                 self.foot_at(index, query, search.range[0], search.range),
                 &index.frame,

@@ -5,6 +5,7 @@ mod ties;
 use super::local::{LOCAL_FLAGS, WholeSurface, surface_start};
 use super::patch::{PatchMemory, Sheet, search_patch};
 use super::proof::{Proof, Site, Watch, note_loose};
+use super::within::{Within, nothing_within};
 use super::{
     FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, distance, far_foot, flag,
     grained, is_bad, is_coarse, mark_inversion, rounding_floor, search_floor, tree_limit,
@@ -51,7 +52,7 @@ impl IndexedSurface {
         let hint = hint.filter(|at| at.iter().all(|x| x.is_finite()));
         match options.scope {
             Scope::Local => self.local(index, query, hint, options, workspace, trace),
-            Scope::Global => self.global(index, query, hint, options, workspace, trace),
+            Scope::Global => self.global(index, query, hint, None, options, workspace, trace),
         }
     }
 
@@ -94,7 +95,7 @@ impl IndexedSurface {
     }
 
     /// The gap that rounding leaves to a search.
-    fn floor(index: &SurfaceIndex, query: Vector) -> f64 {
+    pub(super) fn floor(index: &SurfaceIndex, query: Vector) -> f64 {
         search_floor(
             &index.frame,
             query,
@@ -130,11 +131,13 @@ impl IndexedSurface {
         foot
     }
 
-    fn global(
+    /// The global search; `within`: only what is nearer than that counts, see [`nothing_within`].
+    pub(super) fn global(
         &self,
         index: &SurfaceIndex,
         query: Vector,
         hint: Option<[f64; 2]>,
+        within: Option<Within>,
         options: &QueryOptions,
         workspace: &mut Workspace,
         mut trace: Option<Trace>,
@@ -158,12 +161,18 @@ impl IndexedSurface {
         };
         let watch: Option<Watch> = if traced { Some(&mut tell) } else { None };
         let mut proof = Proof::new(0.5 * gap * index.frame.scale, budget, watch);
+        if let Some(within) = within {
+            proof.begin_within(within.distance * index.frame.scale, within.direction);
+        }
         if let Some(at) = hint {
             search.start_at(at, &mut proof);
         }
         search.walk(workspace, &mut proof);
         search.polish(&mut proof);
         let Some(site) = proof.site else {
+            if within.is_some() {
+                return nothing_within(&proof, &index.frame);
+            }
             let corner = [search.range[0], search.range[2]];
             return far_foot(
                 self.foot_at(index, query, corner, search.range),

@@ -60,6 +60,12 @@ impl IndexedCurve {
         &self.curve
     }
 
+    /// Bytes held: the curve, and the index once it is built.
+    pub fn memory(&self) -> usize {
+        let index = self.index.value.get().map_or(0, CurveIndex::memory);
+        size_of::<Self>() + self.curve.heap_memory() + index
+    }
+
     /// The index, built now if it was not there.
     ///
     /// # Errors
@@ -86,6 +92,12 @@ impl IndexedSurface {
     /// The surface.
     pub fn surface(&self) -> &Surface {
         &self.surface
+    }
+
+    /// Bytes held: the surface, and the index once it is built.
+    pub fn memory(&self) -> usize {
+        let index = self.index.value.get().map_or(0, SurfaceIndex::memory);
+        size_of::<Self>() + self.surface.heap_memory() + index
     }
 
     /// The index, built now if it was not there.
