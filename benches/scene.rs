@@ -33,9 +33,12 @@ fn main() {
     };
     let (members, queries) = (number("members", 1000), number("queries", 2000));
     let models = models();
+    let only = arguments.iter().find_map(|a| a.strip_prefix("only=")).unwrap_or("").to_string();
     println!("{members} members from {} surfaces, {queries} queries", models.len());
-    for (name, spacing) in [("apart", 1.3), ("part", 0.7), ("overlapping", 0.25)] {
-        measure(name, &models, members, spacing, queries);
+    for (name, spacing) in [("apart", 1.3), ("part", 0.7), ("overlapping", 0.4), ("heap", 0.25)] {
+        if name.contains(&only) {
+            measure(name, &models, members, spacing, queries);
+        }
     }
 }
 
