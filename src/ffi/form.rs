@@ -10,18 +10,19 @@ use crate::error::Error;
 use crate::extrema::ExtremaOptions;
 use crate::index::{IndexedCurve, IndexedSurface, Poll};
 use crate::set::FootSet;
+use std::sync::Arc;
 
 /// A curve of either kind.
 #[derive(Debug)]
 pub(super) enum CurveForm {
-    Spline(IndexedCurve),
+    Spline(Arc<IndexedCurve>),
     Function(CallbackCurve),
 }
 
 /// A surface of either kind.
 #[derive(Debug)]
 pub(super) enum SurfaceForm {
-    Spline(IndexedSurface),
+    Spline(Arc<IndexedSurface>),
     Function(CallbackSurface),
 }
 
@@ -100,6 +101,14 @@ impl CurveForm {
         match self {
             Self::Spline(curve) => curve.check_domain(domain),
             Self::Function(curve) => curve.check_domain(domain),
+        }
+    }
+
+    /// Bytes held: the curve, and the index once it is built.
+    pub(super) fn memory(&self) -> usize {
+        match self {
+            Self::Spline(curve) => curve.memory(),
+            Self::Function(curve) => curve.memory(),
         }
     }
 
@@ -230,6 +239,14 @@ impl SurfaceForm {
         match self {
             Self::Spline(surface) => surface.check_domain(domain),
             Self::Function(surface) => surface.check_domain(domain),
+        }
+    }
+
+    /// Bytes held: the surface, and the index once it is built.
+    pub(super) fn memory(&self) -> usize {
+        match self {
+            Self::Spline(surface) => surface.memory(),
+            Self::Function(surface) => surface.memory(),
         }
     }
 

@@ -5,7 +5,7 @@
 
 use super::curve::{self, fpt_curve};
 use super::form::{CurveForm, SurfaceForm};
-use super::memory::Strided;
+use super::memory::{Points, Strided};
 use super::options::fpt_query_options;
 use super::records::{feet, fpt_foot_point};
 use super::surface::{self, fpt_surface};
@@ -218,7 +218,7 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
     /// Pointers that are not NULL point to what the header asks for, for as long as the call lasts.
     pub(super) unsafe fn read(
         shape: &'a S,
-        points: *const f64,
+        points: impl Into<Points>,
         count: usize,
         options: *const fpt_query_options,
         out: *mut fpt_foot_point,
@@ -296,7 +296,7 @@ fn restricted<S: Shape<N>, const N: usize>(
     Ok(std::array::from_fn(|k| [domain[2 * k], domain[2 * k + 1]]))
 }
 
-fn check_hints<const N: usize>(hints: &Strided<'_, N>) -> Result<(), Failure> {
+pub(super) fn check_hints<const N: usize>(hints: &Strided<'_, N>) -> Result<(), Failure> {
     match (0..hints.len()).find(|&i| hints.row(i).iter().any(|x| x.is_infinite())) {
         Some(i) => Err(Failure::invalid(format!("hints: hint {i} is infinite"))),
         None => Ok(()),
