@@ -160,10 +160,15 @@ proptest! {
         }
     }
 
+}
+
+proptest! {
+    #![proptest_config(config(100))]
+
     #[test]
     fn threads_order_and_workspaces_leave_the_bits(family in 0..FAMILIES.len(), seed in any::<u64>()) {
         let (scene, r) = (scene(family, seed), &mut Random(!seed));
-        let queries: Vec<Vector> = (0..300).map(|_| query(&scene, r)).collect();
+        let queries: Vec<Vector> = (0..150).map(|_| query(&scene, r)).collect();
         scene.prepare(2, &mut || false).unwrap();
         let options = QueryOptions::default();
         let run = |threads: usize, order: &[usize]| {
@@ -367,6 +372,21 @@ fn members_share_a_shape_that_outlives_all_who_let_go() {
     assert_eq!(ask(&second, [4.5, 0.5, 1.0]).foot.distance, 1.0);
     drop((second, shape));
     assert_eq!(Arc::strong_count(&surface), 1);
+}
+
+#[test]
+fn many_threads_may_be_the_first_at_once() {
+    let scene = scene(1, 77);
+    let queries: Vec<Vector> = (0..20).map(|k| query(&scene, &mut Random(k))).collect();
+    let answers = || -> Vec<[u64; 9]> {
+        scene.prepare(2, &mut || false).unwrap();
+        queries.iter().map(|q| bits(&ask(&scene, *q).foot)).collect()
+    };
+    std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..4).map(|_| scope.spawn(answers)).collect();
+        let all: Vec<_> = threads.into_iter().map(|thread| thread.join().unwrap()).collect();
+        assert!(all.iter().all(|one| *one == all[0]));
+    });
 }
 
 #[test]

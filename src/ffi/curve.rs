@@ -17,13 +17,13 @@ use std::sync::Arc;
 /// caller, released by fpt_curve_free. A curve from a callback has no degree, knots, poles and weights:
 /// functions that need them return FPT_UNSUPPORTED.
 pub struct fpt_curve {
-    form: Arc<CurveForm>,
+    form: CurveForm,
 }
 
 impl fpt_curve {
     /// A handle for the caller.
     pub(super) fn handle(form: CurveForm) -> *mut Self {
-        Box::into_raw(Box::new(Self { form: Arc::new(form) }))
+        Box::into_raw(Box::new(Self { form }))
     }
 }
 

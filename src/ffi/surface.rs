@@ -17,13 +17,13 @@ use std::sync::Arc;
 /// the caller, released by fpt_surface_free. A surface from a callback has no degrees, knots, poles and
 /// weights: functions that need them return FPT_UNSUPPORTED.
 pub struct fpt_surface {
-    form: Arc<SurfaceForm>,
+    form: SurfaceForm,
 }
 
 impl fpt_surface {
     /// A handle for the caller.
     pub(super) fn handle(form: SurfaceForm) -> *mut Self {
-        Box::into_raw(Box::new(Self { form: Arc::new(form) }))
+        Box::into_raw(Box::new(Self { form }))
     }
 }
 

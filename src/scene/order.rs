@@ -8,6 +8,7 @@ use crate::bounds::Aabb;
 /// The numbers of the boxes in that order.
 pub fn by_halves(boxes: &[Aabb], order: &mut [u32]) {
     if order.len() <= 2 {
+        order.sort_unstable();
         return;
     }
     let middle = |i: u32, k: usize| {
