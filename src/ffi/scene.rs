@@ -8,7 +8,7 @@ use super::options::{SelfSized, sized};
 use super::surface::{self, fpt_surface};
 use super::{Failure, fpt_status, guard};
 use crate::error::Error;
-use crate::scene::{Member, Placement, Scene, Shape};
+use crate::scene::{MAX_MEMBERS, Member, Placement, Scene, Shape};
 use std::mem::size_of;
 
 /// Many curves and surfaces that are searched together. Immutable, as they are: any number of threads may use one at a time.
@@ -42,7 +42,7 @@ pub struct fpt_scene_member {
 pub struct fpt_scene_data {
     /// sizeof(fpt_scene_data).
     pub struct_size: usize,
-    /// At least 1, less than 2^31.
+    /// 1 to 2^31 - 1.
     pub member_count: usize,
     /// The members, struct_size bytes of the first apart.
     pub members: *const fpt_scene_member,
@@ -91,6 +91,10 @@ unsafe fn read(data: *const fpt_scene_data) -> Result<Vec<Member>, Failure> {
         let data = sized("data", data)?;
         if data.member_count == 0 {
             return Err(Failure::invalid("members: a scene needs at least one".into()));
+        }
+        if data.member_count > MAX_MEMBERS {
+            let text = format!("members: {} are more than {MAX_MEMBERS}", data.member_count);
+            return Err(Failure::invalid(text));
         }
         let first = sized("members", data.members)?;
         check_extent("members", data.member_count, first.struct_size)?;
