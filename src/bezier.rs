@@ -114,6 +114,7 @@ fn blend(poles: &mut [f64], from: [usize; 2], out: usize, strands: usize, [y, x]
 }
 
 /// Bernstein basis of degree `p` at `s` and its first two derivatives, each `p + 1` long.
+#[inline(always)]
 pub fn basis(p: usize, s: f64, values: &mut [f64], first: &mut [f64], second: &mut [f64]) {
     let r = 1.0 - s;
     values[0] = 1.0;
@@ -139,6 +140,7 @@ pub fn basis(p: usize, s: f64, values: &mut [f64], first: &mut [f64], second: &m
 
 /// `out_i = factor * order-th backward difference of the degree-`n` basis values`, which is the derivative
 /// of the basis of degree `n + order`.
+#[inline(always)]
 fn difference(factor: f64, order: usize, values: &[f64], n: usize, out: &mut [f64]) {
     let at = |i: isize| if (0..=n as isize).contains(&i) { values[i as usize] } else { 0.0 };
     for i in 0..=(n + order) as isize {

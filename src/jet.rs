@@ -7,6 +7,7 @@
 use crate::bezier::{Bidegree, basis};
 use crate::bounds::{Vector, dot, sub};
 use crate::knots::MAX_DEGREE;
+use crate::simd::{Kernel, Lanes, Level, Simd};
 
 /// Second derivatives of the squared distance below this share of the metric count as zero.
 const FLAT: f64 = 1e-6;
@@ -121,6 +122,10 @@ pub struct BezierSegment<'a> {
     pub rational: bool,
     /// Homogeneous poles.
     pub poles: &'a [f64],
+    /// The same poles, pole by pole (see [`lanes`]).
+    pub lanes: &'a [Lane],
+    /// Vector instructions for its kernels.
+    pub level: Level,
 }
 
 /// A Bezier patch: poles component by component, pole (i, j) of a component at `i * (degree.t + 1) + j`.
@@ -132,100 +137,257 @@ pub struct BezierPatch<'a> {
     pub rational: bool,
     /// Homogeneous poles.
     pub poles: &'a [f64],
+    /// The same poles, pole by pole (see [`lanes`]).
+    pub lanes: &'a [Lane],
+    /// Vector instructions for its kernels.
+    pub level: Level,
 }
 
-type Basis = [f64; MAX_DEGREE + 1];
+/// One homogeneous pole: x, y, z, w, or any sum of such.
+pub type Lane = [f64; 4];
 
-impl BezierSegment<'_> {
-    /// The jet at `s` for the query `p`. Cost: O(degree^2) for the basis, then 12 or 9 short sums.
-    pub fn jet(&self, s: f64, p: Vector) -> Jet1 {
-        let n = self.degree + 1;
-        let (mut b, mut b1, mut b2): (Basis, Basis, Basis) = Default::default();
-        basis(self.degree, s, &mut b, &mut b1, &mut b2);
-        let mut sums = [[0.0; 4]; 3];
-        for (c, component) in self.poles.chunks_exact(n).enumerate() {
-            for (k, x) in component.iter().enumerate() {
-                sums[0][c] += b[k] * x;
-                sums[1][c] += b1[k] * x;
-                sums[2][c] += b2[k] * x;
-            }
+/// The poles of a net given component by component, pole by pole: the form in which sums over poles run in vectors. The
+/// weight of a polynomial net is 1.
+pub fn lanes(poles: &[f64], rational: bool) -> impl Iterator<Item = Lane> + '_ {
+    let count = poles.len() / if rational { 4 } else { 3 };
+    let weight = move |k: usize| if rational { poles[3 * count + k] } else { 1.0 };
+    (0..count).map(move |k| [poles[k], poles[count + k], poles[2 * count + k], weight(k)])
+}
+
+/// Degrees whose loops have fixed lengths.
+const FIXED: usize = 5;
+
+/// Basis values, first and second derivatives.
+type Basis<const N: usize> = [[f64; N]; 3];
+
+/// The Bernstein basis of degree `n - 1`, `n <= N`; what is beyond `n` is zero.
+#[inline(always)]
+fn bernstein<const N: usize>(n: usize, s: f64) -> Basis<N> {
+    match n {
+        2 => widened::<2, N>(fixed_basis(s)),
+        3 => widened::<3, N>(fixed_basis(s)),
+        4 => widened::<4, N>(fixed_basis(s)),
+        5 => widened::<5, N>(fixed_basis(s)),
+        6 => widened::<6, N>(fixed_basis(s)),
+        _ => {
+            let mut out = [[0.0; N]; 3];
+            let [values, first, second] = &mut out;
+            basis(n - 1, s, &mut values[..n], &mut first[..n], &mut second[..n]);
+            out
         }
-        if !self.rational {
-            let [x, s, ss] = sums.map(|[x, y, z, _]| [x, y, z]);
-            return Jet1 { d: sub(x, p), s, ss, w: [1.0, 0.0] };
-        }
-        let (w, w1, w2) = (sums[0][3], sums[1][3], sums[2][3]);
-        let mut jet = Jet1 { w: [w, w1], ..Jet1::default() };
-        for c in 0..3 {
-            let r = |k: usize| sums[k][c] - sums[k][3] * p[c];
-            jet.d[c] = r(0) / w;
-            jet.s[c] = (r(1) - w1 * jet.d[c]) / w;
-            jet.ss[c] = (r(2) - 2.0 * w1 * jet.s[c] - w2 * jet.d[c]) / w;
-        }
-        jet
     }
 }
 
-impl BezierPatch<'_> {
-    /// The jet at `(s, t)` for the query `p`.
-    pub fn jet(&self, s: f64, t: f64, p: Vector) -> Jet2 {
-        // Fixed inner lengths let the compiler unroll the common degrees; the sums and their order are the same.
-        let sums = match self.degree.t {
-            1 => self.sums::<2>(s, t),
-            2 => self.sums::<3>(s, t),
-            3 => self.sums::<4>(s, t),
-            _ => self.sums::<0>(s, t),
-        };
-        if !self.rational {
-            let [x, s, t, ss, st, tt] = sums.map(|[x, y, z, _]| [x, y, z]);
-            return Jet2 { d: sub(x, p), s, t, ss, st, tt, w: [1.0, 0.0, 0.0] };
+#[inline(always)]
+fn widened<const M: usize, const N: usize>(basis: Basis<M>) -> Basis<N> {
+    let mut out = [[0.0; N]; 3];
+    for k in 0..3 {
+        for i in 0..M.min(N) {
+            out[k][i] = basis[k][i];
         }
-        divided(&sums, p)
     }
+    out
+}
 
-    /// Value, s, t, ss, st, tt of the four components. `N` is the number of columns, 0 when not fixed.
-    fn sums<const N: usize>(&self, s: f64, t: f64) -> [[f64; 4]; 6] {
-        let columns = if N == 0 { self.degree.t + 1 } else { N };
-        let (mut bs, mut bs1, mut bs2): (Basis, Basis, Basis) = Default::default();
-        let (mut bt, mut bt1, mut bt2): (Basis, Basis, Basis) = Default::default();
-        basis(self.degree.s, s, &mut bs, &mut bs1, &mut bs2);
-        basis(self.degree.t, t, &mut bt, &mut bt1, &mut bt2);
-        let mut sums = [[0.0; 4]; 6];
-        for (c, component) in self.poles.chunks_exact(self.degree.count()).enumerate() {
-            for (i, row) in component.chunks_exact(columns).enumerate() {
-                let mut v = [0.0; 3];
-                for j in 0..columns {
-                    v[0] += bt[j] * row[j];
-                    v[1] += bt1[j] * row[j];
-                    v[2] += bt2[j] * row[j];
-                }
-                sums[0][c] += bs[i] * v[0];
-                sums[1][c] += bs1[i] * v[0];
-                sums[2][c] += bs[i] * v[1];
-                sums[3][c] += bs2[i] * v[0];
-                sums[4][c] += bs1[i] * v[1];
-                sums[5][c] += bs[i] * v[2];
+/// As [`basis`], for a degree `M - 1` that the compiler knows: the same steps without loops.
+#[inline(always)]
+fn fixed_basis<const M: usize>(s: f64) -> Basis<M> {
+    let (p, r) = (M - 1, 1.0 - s);
+    let (mut row, mut once, mut twice) = ([0.0; M], [0.0; M], [0.0; M]);
+    row[0] = 1.0;
+    for level in 0..p {
+        if level + 2 == p {
+            twice = row;
+        }
+        if level + 1 == p {
+            once = row;
+        }
+        let mut carry = 0.0;
+        for i in 0..=level {
+            let old = row[i];
+            row[i] = carry + r * old;
+            carry = s * old;
+        }
+        row[level + 1] = carry;
+    }
+    let (n, m) = (p as f64, (p * (p - 1)) as f64);
+    let (mut first, mut second) = ([0.0; M], [0.0; M]);
+    for i in 0..M {
+        let one = if i > 0 { once[i - 1] } else { 0.0 };
+        first[i] = n * (one - once[i]);
+        let (one, two) =
+            (if i > 0 { twice[i - 1] } else { 0.0 }, if i > 1 { twice[i - 2] } else { 0.0 });
+        second[i] = m * (two - 2.0 * one + twice[i]);
+    }
+    [row, first, second]
+}
+
+#[inline(always)]
+fn vector<V: Lanes<4>>(lane: V) -> Vector {
+    let [x, y, z, _] = lane.array();
+    [x, y, z]
+}
+
+#[inline(always)]
+fn weight<V: Lanes<4>>(lane: V) -> f64 {
+    lane.array()[3]
+}
+
+struct SegmentJet<'a>(&'a BezierSegment<'a>, f64, Vector);
+
+impl SegmentJet<'_> {
+    /// Value, first and second derivative; `N` is the number of poles, or at least that.
+    #[inline(always)]
+    fn sums<S: Simd, const N: usize>(&self, n: usize) -> [S::F4; 3] {
+        let b = bernstein::<N>(n, self.1);
+        let mut sums = [S::F4::splat(0.0); 3];
+        for (k, lane) in self.0.lanes[..n].iter().enumerate() {
+            let lane = S::F4::load(lane);
+            for c in 0..3 {
+                sums[c] = sums[c] + S::F4::splat(b[c][k]) * lane;
             }
         }
         sums
     }
 }
 
-fn divided(sums: &[[f64; 4]; 6], p: Vector) -> Jet2 {
-    let [w, ws, wt, wss, wst, wtt] = sums.map(|sum| sum[3]);
-    let mut jet = Jet2 { w: [w, ws, wt], ..Jet2::default() };
-    for c in 0..3 {
-        let r = |k: usize| sums[k][c] - sums[k][3] * p[c];
-        let d = r(0) / w;
-        let (s, t) = ((r(1) - ws * d) / w, (r(2) - wt * d) / w);
-        jet.d[c] = d;
-        jet.s[c] = s;
-        jet.t[c] = t;
-        jet.ss[c] = (r(3) - 2.0 * ws * s - wss * d) / w;
-        jet.st[c] = (r(4) - ws * t - wt * s - wst * d) / w;
-        jet.tt[c] = (r(5) - 2.0 * wt * t - wtt * d) / w;
+impl Kernel for SegmentJet<'_> {
+    type Out = Jet1;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) -> Jet1 {
+        let sums = match self.0.degree {
+            1 => self.sums::<S, 2>(2),
+            2 => self.sums::<S, 3>(3),
+            3 => self.sums::<S, 4>(4),
+            4 => self.sums::<S, 5>(5),
+            FIXED => self.sums::<S, 6>(6),
+            p => self.sums::<S, { MAX_DEGREE + 1 }>(p + 1),
+        };
+        if !self.0.rational {
+            let d = sub(vector(sums[0]), self.2);
+            return Jet1 { d, s: vector(sums[1]), ss: vector(sums[2]), w: [1.0, 0.0] };
+        }
+        let p = S::F4::load(&[self.2[0], self.2[1], self.2[2], 0.0]);
+        let weights = [weight(sums[0]), weight(sums[1]), weight(sums[2])];
+        let (w, w1) = (S::F4::splat(weights[0]), S::F4::splat(weights[1]));
+        let w2 = S::F4::splat(weights[2]);
+        let d = (sums[0] - w * p) / w;
+        let s = (sums[1] - w1 * p - w1 * d) / w;
+        let ss = (sums[2] - w2 * p - S::F4::splat(2.0) * w1 * s - w2 * d) / w;
+        Jet1 { d: vector(d), s: vector(s), ss: vector(ss), w: [weights[0], weights[1]] }
     }
-    jet
+}
+
+impl BezierSegment<'_> {
+    /// The jet at `s` for the query `p`. Cost: O(degree^2) for the basis, then three short sums.
+    pub fn jet(&self, s: f64, p: Vector) -> Jet1 {
+        self.level.run(SegmentJet(self, s, p))
+    }
+}
+
+struct PatchJet<'a>(&'a BezierPatch<'a>, [f64; 2], Vector);
+
+impl PatchJet<'_> {
+    /// Value, s, t, ss, st, tt. `N` is the number of columns, or at least that.
+    #[inline(always)]
+    fn sums<S: Simd, const N: usize>(&self) -> [S::F4; 6] {
+        if self.0.degree.s <= FIXED {
+            self.sums_of::<S, N, { FIXED + 1 }>()
+        } else {
+            self.sums_of::<S, N, { MAX_DEGREE + 1 }>()
+        }
+    }
+
+    #[inline(always)]
+    fn sums_of<S: Simd, const N: usize, const ROWS: usize>(&self) -> [S::F4; 6] {
+        let columns = if N > FIXED + 1 { self.0.degree.t + 1 } else { N };
+        let across = bernstein::<ROWS>(self.0.degree.s + 1, self.1[0]);
+        // Sums over the rows, one a column; then sums over the columns.
+        let mut partial = [[S::F4::splat(0.0); N]; 3];
+        for (i, row) in self.0.lanes.chunks_exact(columns).enumerate() {
+            let (b, b1) = (S::F4::splat(across[0][i]), S::F4::splat(across[1][i]));
+            let b2 = S::F4::splat(across[2][i]);
+            for j in 0..columns {
+                let lane = S::F4::load(&row[j]);
+                partial[0][j] = partial[0][j] + b * lane;
+                partial[1][j] = partial[1][j] + b1 * lane;
+                partial[2][j] = partial[2][j] + b2 * lane;
+            }
+        }
+        let along = bernstein::<N>(columns, self.1[1]);
+        let mut sums = [S::F4::splat(0.0); 6];
+        for j in 0..columns {
+            let (value, s, ss) = (partial[0][j], partial[1][j], partial[2][j]);
+            let (b, b1) = (S::F4::splat(along[0][j]), S::F4::splat(along[1][j]));
+            let b2 = S::F4::splat(along[2][j]);
+            let terms = [b * value, b * s, b1 * value, b * ss, b1 * s, b2 * value];
+            for k in 0..6 {
+                sums[k] = sums[k] + terms[k];
+            }
+        }
+        sums
+    }
+}
+
+impl Kernel for PatchJet<'_> {
+    type Out = Jet2;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) -> Jet2 {
+        let sums = match self.0.degree.t {
+            1 => self.sums::<S, 2>(),
+            2 => self.sums::<S, 3>(),
+            3 => self.sums::<S, 4>(),
+            4 => self.sums::<S, 5>(),
+            FIXED => self.sums::<S, 6>(),
+            _ => self.sums::<S, { MAX_DEGREE + 1 }>(),
+        };
+        if !self.0.rational {
+            return Jet2 {
+                d: sub(vector(sums[0]), self.2),
+                s: vector(sums[1]),
+                t: vector(sums[2]),
+                ss: vector(sums[3]),
+                st: vector(sums[4]),
+                tt: vector(sums[5]),
+                w: [1.0, 0.0, 0.0],
+            };
+        }
+        divided(sums, self.2)
+    }
+}
+
+impl BezierPatch<'_> {
+    /// The jet at `(s, t)` for the query `p`.
+    pub fn jet(&self, s: f64, t: f64, p: Vector) -> Jet2 {
+        self.level.run(PatchJet(self, [s, t], p))
+    }
+}
+
+#[inline(always)]
+fn divided<V: Lanes<4>>(sums: [V; 6], p: Vector) -> Jet2 {
+    let p = V::load(&[p[0], p[1], p[2], 0.0]);
+    let two = V::splat(2.0);
+    let weights = [weight(sums[0]), weight(sums[1]), weight(sums[2])];
+    let (w, ws) = (V::splat(weights[0]), V::splat(weights[1]));
+    let (wt, wss) = (V::splat(weights[2]), V::splat(weight(sums[3])));
+    let (wst, wtt) = (V::splat(weight(sums[4])), V::splat(weight(sums[5])));
+    let d = (sums[0] - w * p) / w;
+    let s = (sums[1] - ws * p - ws * d) / w;
+    let t = (sums[2] - wt * p - wt * d) / w;
+    let ss = (sums[3] - wss * p - two * ws * s - wss * d) / w;
+    let st = (sums[4] - wst * p - ws * t - wt * s - wst * d) / w;
+    let tt = (sums[5] - wtt * p - two * wt * t - wtt * d) / w;
+    Jet2 {
+        d: vector(d),
+        s: vector(s),
+        t: vector(t),
+        ss: vector(ss),
+        st: vector(st),
+        tt: vector(tt),
+        w: weights,
+    }
 }
 
 #[cfg(test)]
@@ -234,10 +396,30 @@ mod tests {
     use crate::bounds::{norm, scaled};
 
     #[test]
+    fn a_basis_without_loops_is_the_basis() {
+        let same = |n: usize, fixed: Basis<6>, s: f64| {
+            let mut out = [[0.0; 6]; 3];
+            let [values, first, second] = &mut out;
+            basis(n - 1, s, &mut values[..n], &mut first[..n], &mut second[..n]);
+            assert_eq!(out, fixed, "{n} poles, s {s}");
+        };
+        for s in [0.0, 0.3, 0.77, 1.0] {
+            same(2, widened::<2, 6>(fixed_basis(s)), s);
+            same(3, widened::<3, 6>(fixed_basis(s)), s);
+            same(4, widened::<4, 6>(fixed_basis(s)), s);
+            same(5, widened::<5, 6>(fixed_basis(s)), s);
+            same(6, widened::<6, 6>(fixed_basis(s)), s);
+        }
+    }
+
+    #[test]
     fn a_quarter_circle_has_its_curvature() {
         let r = 0.5f64.sqrt();
         let poles = [1.0, r, 0.0, 0.0, r, 1.0, 0.0, 0.0, 0.0, 1.0, r, 1.0];
-        let arc = BezierSegment { degree: 2, rational: true, poles: &poles };
+        let pole_lanes: Vec<Lane> = lanes(&poles, true).collect();
+        let level = Level::detect();
+        let arc =
+            BezierSegment { degree: 2, rational: true, poles: &poles, lanes: &pole_lanes, level };
         for s in [0.0, 0.3, 1.0] {
             let jet = arc.jet(s, [0.0; 3]);
             assert!((norm(jet.d) - 1.0).abs() < 1e-15);
@@ -254,7 +436,10 @@ mod tests {
         for w in &mut poles[36..] {
             *w += 0.5;
         }
-        let patch = BezierPatch { degree, rational: true, poles: &poles };
+        let pole_lanes: Vec<Lane> = lanes(&poles, true).collect();
+        let level = Level::detect();
+        let patch =
+            BezierPatch { degree, rational: true, poles: &poles, lanes: &pole_lanes, level };
         let (s, t, h, p) = (0.4, 0.7, 1e-5, [0.3, -0.2, 1.0]);
         let jet = patch.jet(s, t, p);
         let central =

@@ -13,9 +13,13 @@ pub mod curve;
 
 pub mod surface;
 
+pub mod simd;
+
 pub mod bezier;
 
 pub mod bounds;
+
+pub mod coefficients;
 
 pub mod jet;
 

@@ -15,6 +15,7 @@ use super::{
     tree_limit, tree_slack, ulp,
 };
 use crate::bounds::{Vector, cross, dot, norm, sub};
+use crate::coefficients::padded;
 use crate::error::Error;
 use crate::index::{CurveIndex, IndexedCurve, position_error, position_steps, product_steps};
 use crate::refine::{Trace, foot_on_curve};
@@ -417,13 +418,13 @@ fn multiply<'a>(
     rational: bool,
     out: &'a mut [f64],
 ) -> (&'a [f64], &'a [f64]) {
-    let count = 2 * degree + 1;
+    let (count, size) = (2 * degree + 1, padded(2 * degree + 1));
     let square = dot(p, p);
     let (n, c) = out.split_at_mut(count);
     for k in 0..count {
-        let weight = if rational { tensors[4 * count + k] } else { 1.0 };
-        let xy = p[0] * tensors[count + k] + p[1] * tensors[2 * count + k];
-        n[k] = tensors[k] + xy + (p[2] * tensors[3 * count + k] + square * weight);
+        let weight = if rational { tensors[4 * size + k] } else { 1.0 };
+        let xy = p[0] * tensors[size + k] + p[1] * tensors[2 * size + k];
+        n[k] = tensors[k] + xy + (p[2] * tensors[3 * size + k] + square * weight);
         c[k] = weight;
     }
     (n, if rational { &c[..count] } else { &[] })

@@ -28,12 +28,6 @@ impl Slopes {
             self.t = merged(self.t, differences(row, 1));
         }
     }
-
-    /// Greatest slope along s and along t, in the area's unit parameters.
-    pub fn steepest(&self, degree: Bidegree) -> [f64; 2] {
-        let size = |(low, high): (f64, f64), n: usize| low.abs().max(high.abs()) * n as f64;
-        [size(self.s, degree.s), size(self.t, degree.t)]
-    }
 }
 
 fn merged(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
@@ -128,6 +122,5 @@ mod tests {
         let mut slopes = Slopes::NONE;
         slopes.include(&[0.0, 1.0, 3.0, 1.0, 2.0, 4.0, 2.0, 3.0, 5.0], BIQUADRATIC);
         assert_eq!(slopes, Slopes { s: (1.0, 1.0), t: (1.0, 2.0) });
-        assert_eq!(slopes.steepest(BIQUADRATIC), [2.0, 4.0]);
     }
 }

@@ -4,21 +4,23 @@
 //! At a collapsed side the derivative along it vanishes for every shape: the collapsed point is looked at once,
 //! and off that side the sign of the derivative of the distance itself is used (see [`Walk::turning`]).
 
+mod net;
 mod sides;
 
 use super::certificate::{
-    foot_plane_separates, free_slope, least_height, nearness, plane_separates, slope_error, square,
-    squared_error, subtract_query, tilted_height, underflows, value_at,
+    foot_plane_separates, free_slope, least_height, nearness, plane_separates, slope_error,
+    squared_error, tilted_height, underflows, value_at,
 };
-use super::differences::{Slopes, convexity};
 use super::line::LineMemory;
 use super::proof::{Proof, Site};
-use crate::bezier::{Bidegree, cut_2d, halve_s, halve_t};
-use crate::bounds::{HALF_ULP, Vector, dot, extent, least, norm};
+use crate::bezier::Bidegree;
+use crate::bounds::{HALF_ULP, Vector, dot, norm};
+use crate::coefficients::{Differences, Grid};
 use crate::index::{Patch, product_steps};
 use crate::jet::{BezierPatch, Jet2};
 use crate::knots::MAX_DEGREE;
 use crate::refine::{Method, foot_on_surface};
+use net::CutFree;
 
 const MAX_WAITING: usize = 128;
 const LEAST_WIDTH: f64 = 1e-14;
@@ -50,6 +52,8 @@ pub struct Sheet<'a> {
     pub range: [f64; 4],
     /// Whether a foot with a gradient may sit on the four sides of `range`.
     pub border: [bool; 4],
+    /// The coefficient arrays.
+    pub grid: &'a Grid,
     /// Local iteration.
     pub method: Method,
     /// Boxes after which the patch is put off.
@@ -73,6 +77,7 @@ pub struct PatchMemory {
     waiting: Vec<Area>,
     coefficients: Vec<f64>,
     net: Vec<f64>,
+    lanes: Vec<[f64; 4]>,
     h: Vec<f64>,
     edge: Vec<f64>,
     turning: Vec<f64>,
@@ -81,16 +86,17 @@ pub struct PatchMemory {
 }
 
 impl PatchMemory {
-    fn reserve(&mut self, degree: Bidegree) {
-        let count = degree.times(degree).count();
-        if self.h.len() < 2 * count {
-            self.coefficients.resize(2 * count * MAX_WAITING, 0.0);
-            self.h.resize(2 * count, 0.0);
+    fn reserve(&mut self, degree: Bidegree, grid: &Grid) {
+        if self.h.len() < grid.stride {
+            // As if rational, so that shapes with and without weights take turns without growing.
+            self.coefficients.resize(2 * grid.stride * MAX_WAITING, 0.0);
+            self.h.resize(grid.stride, 0.0);
             self.waiting.reserve(MAX_WAITING);
             self.edge.resize(4 * (MAX_DEGREE + 1) + 4 * (2 * MAX_DEGREE + 1), 0.0);
         }
         if self.net.len() < 4 * degree.count() {
             self.net.resize(4 * degree.count(), 0.0);
+            self.lanes.resize(degree.count(), [0.0; 4]);
         }
     }
 }
@@ -98,22 +104,18 @@ impl PatchMemory {
 /// Searches the patch; see [`search_line`] for what holds on return. False when patience ran out: then nothing holds
 /// but the best foot, and the patch is to be searched again.
 pub fn search_patch(sheet: &Sheet, memory: &mut PatchMemory, proof: &mut Proof) -> bool {
-    memory.reserve(sheet.net.degree);
+    memory.reserve(sheet.net.degree, sheet.grid);
     memory.waiting.clear();
-    let degree = sheet.net.degree.times(sheet.net.degree);
-    let count = degree.count();
-    let slot = if sheet.net.rational { 2 * count } else { count };
-    let start = proof.spent;
-    Walk { sheet, memory, proof, degree, count, slot, start, tilts: (0, 0) }.run()
+    let (degree, slot, start) = (sheet.grid.degree, sheet.grid.slot(), proof.spent);
+    Walk { sheet, memory, proof, degree, slot, start, tilts: (0, 0) }.run()
 }
 
 struct Walk<'a, 'b, 't> {
     sheet: &'a Sheet<'b>,
     memory: &'a mut PatchMemory,
     proof: &'a mut Proof<'t>,
-    /// Bidegree and number of the product coefficients.
+    /// Bidegree of the product coefficients.
     degree: Bidegree,
-    count: usize,
     slot: usize,
     /// Boxes that were spent before this patch.
     start: u64,
@@ -184,26 +186,12 @@ impl Walk<'_, '_, '_> {
         }
     }
 
-    /// Slot 0 from the tensors: `N = A - 2 p.B + |p|^2 C`.
+    /// Slot 0 from the tensors.
     fn multiply(&mut self, tensors: &[f64], area: &mut Area) {
-        let (count, p) = (self.count, self.sheet.query);
+        let p = self.sheet.query;
         let square = dot(p, p);
-        let (a, rest) = tensors.split_at(count);
-        let (x, rest) = rest.split_at(count);
-        let (y, rest) = rest.split_at(count);
-        let (z, c) = rest.split_at(count);
         let slot = &mut self.memory.coefficients[..self.slot];
-        if self.sheet.net.rational {
-            let (n, weights) = slot.split_at_mut(count);
-            weights.copy_from_slice(c);
-            for k in 0..count {
-                n[k] = a[k] + (p[0] * x[k] + p[1] * y[k]) + (p[2] * z[k] + square * c[k]);
-            }
-        } else {
-            for (k, n) in slot.iter_mut().enumerate() {
-                *n = a[k] + (p[0] * x[k] + p[1] * y[k]) + (p[2] * z[k] + square);
-            }
-        }
+        self.sheet.grid.multiply(tensors, p, square, slot);
         let radius = self.sheet.patch.radius + square.sqrt();
         self.set_error(area, 0, radius, self.sheet.net.degree.count());
     }
@@ -219,45 +207,32 @@ impl Walk<'_, '_, '_> {
         area.age = 0;
     }
 
+    fn slot(&self, at: usize) -> &[f64] {
+        &self.memory.coefficients[at * self.slot..(at + 1) * self.slot]
+    }
+
     fn n(&self, at: usize) -> &[f64] {
-        &self.memory.coefficients[at * self.slot..at * self.slot + self.count]
+        self.sheet.grid.n(self.slot(at))
     }
 
     fn c(&self, at: usize) -> &[f64] {
-        &self.memory.coefficients[at * self.slot + self.count..(at + 1) * self.slot]
-    }
-
-    /// Whether all coefficients of `N - mu C` are positive.
-    fn all_beyond(&self, at: usize, mu: f64) -> bool {
-        if self.sheet.net.rational {
-            // No early exit: the loop is short and runs in vectors.
-            self.n(at).iter().zip(self.c(at)).fold(true, |all, (n, c)| all & (*n > mu * c))
-        } else {
-            least(self.n(at)) > mu
-        }
+        self.sheet.grid.c(self.slot(at))
     }
 
     /// Whether nothing in the area is nearer than the target (in a walk for ties: than their reach).
     fn is_beyond(&mut self, area: &Area, at: usize) -> bool {
-        if !self.all_beyond(at, self.proof.level_squared() + area.error) {
-            return false;
-        }
-        if !self.proof.tying && !self.all_beyond(at, self.proof.tie_squared() + area.error) {
+        let (level, ties) = (self.proof.level_squared(), self.proof.tie_squared());
+        let mu = [level + area.error, ties + area.error];
+        let [beyond, beyond_ties] = self.sheet.grid.all_beyond(self.slot(at), mu);
+        if beyond && !beyond_ties && !self.proof.tying {
             self.proof.loosen(self.proof.target);
         }
-        true
+        beyond
     }
 
-    /// Least ratio N / C of the coefficients and its index.
-    fn least_ratio(&self, at: usize) -> (f64, usize) {
-        let mut found = (f64::INFINITY, 0);
-        for (k, &n) in self.n(at).iter().enumerate() {
-            let ratio = if self.sheet.net.rational { n / self.c(at)[k] } else { n };
-            if ratio < found.0 {
-                found = (ratio, k);
-            }
-        }
-        found
+    /// Least ratio N / C of the coefficients, its index, and the greatest C.
+    fn least_ratio(&self, at: usize) -> (f64, usize, f64) {
+        self.sheet.grid.least_ratio(self.slot(at))
     }
 
     fn bound(&self, area: &Area, at: usize) -> f64 {
@@ -280,26 +255,25 @@ impl Walk<'_, '_, '_> {
         if !self.proof.spend() || can == [false; 2] {
             return Verdict::GiveUp;
         }
-        let (mut bound, mut place) = self.least_ratio(at);
+        let (mut bound, mut place, mut weight) = self.least_ratio(at);
         let close = bound > self.proof.level_squared() && area.age > 0;
         if area.age >= FRESH || close || self.proof.tying {
             if self.load(area, at) || self.is_beyond(area, at) {
                 return Verdict::Closed;
             }
-            (bound, place) = self.least_ratio(at);
+            (bound, place, weight) = self.least_ratio(at);
         } else if self.hard() && area.age % TILT_EVERY == 0 && self.cut_free(area).is_none() {
             return Verdict::Closed;
         }
-        let weight = if self.sheet.net.rational { extent(self.c(at)).1 } else { 1.0 };
-        let slopes = self.slopes(area, at, bound);
         let allowance = 2.0 * area.error * weight;
-        for (k, (low, high)) in [slopes.s, slopes.t].into_iter().enumerate() {
+        let slopes = self.slopes(area, at, bound);
+        for (k, [low, high]) in [slopes.s, slopes.t].into_iter().enumerate() {
             if low > allowance || high < -allowance {
                 self.follow_side(area, at, if low > allowance { 2 * k } else { 2 * k + 1 });
                 return Verdict::Closed;
             }
         }
-        if self.turning(area, at, weight) || self.convex(area, at, place, weight) {
+        if self.turning(area, at, weight) || self.convex(area, at, place, weight, &slopes) {
             return Verdict::Closed;
         }
         if area.small {
@@ -314,31 +288,19 @@ impl Walk<'_, '_, '_> {
         if can[0] && (along_s >= along_t || !can[1]) { Verdict::HalveS } else { Verdict::HalveT }
     }
 
-    /// Coefficients of `N - mu C` into half `part` of the scratch memory.
-    fn form(&mut self, at: usize, part: usize, mu: f64) {
+    /// Differences of `N - mu C`.
+    fn differences(&mut self, at: usize, mu: f64) -> Differences {
         let slot = &self.memory.coefficients[at * self.slot..(at + 1) * self.slot];
-        let (n, c) = slot.split_at(self.count);
-        let h = &mut self.memory.h[part * self.count..(part + 1) * self.count];
-        if c.is_empty() {
-            h.copy_from_slice(n);
-        } else {
-            for ((h, n), c) in h.iter_mut().zip(n).zip(c) {
-                *h = n - mu * c;
-            }
-        }
+        self.sheet.grid.differences(slot, mu, &mut self.memory.h)
     }
 
-    /// First differences of `h` over every squared distance that a nearest point in this area can have.
-    fn slopes(&mut self, area: &Area, at: usize, bound: f64) -> Slopes {
+    /// Differences of `h` over every squared distance that a nearest point in this area can have: first ones of both
+    /// ends, second ones of the greatest.
+    fn slopes(&mut self, area: &Area, at: usize, bound: f64) -> Differences {
         let [first, last] = self.proof.counted(bound - area.error);
-        self.form(at, 0, first);
-        let parts = if self.sheet.net.rational { 2 } else { 1 };
-        if parts == 2 {
-            self.form(at, 1, last);
-        }
-        let mut slopes = Slopes::NONE;
-        for h in self.memory.h[..parts * self.count].chunks_exact(self.count) {
-            slopes.include(h, self.degree);
+        let mut slopes = self.differences(at, last);
+        if self.sheet.net.rational {
+            slopes.include_first(&self.differences(at, first));
         }
         slopes
     }
@@ -402,44 +364,58 @@ impl Walk<'_, '_, '_> {
     }
 
     /// Whether convexity and the first-order conditions at the iteration's result prove the target; in a walk for ties,
-    /// whether convexity proves that there is one foot only.
-    fn convex(&mut self, area: &Area, at: usize, place: usize, weight: f64) -> bool {
+    /// whether convexity proves that there is one foot only. `slopes`: of `h` for the greatest distance that counts.
+    fn convex(
+        &mut self,
+        area: &Area,
+        at: usize,
+        place: usize,
+        weight: f64,
+        slopes: &Differences,
+    ) -> bool {
+        let allowance = 4.0 * area.error * weight;
+        let rational = self.sheet.net.rational;
+        // `h` is linear in the squared distance: convex for the least and the greatest that count, all feet are least
+        // points of the area, and there is one.
+        let one_foot = !rational || slopes.convexity(self.degree, allowance).is_some();
         let tying = self.proof.tying;
-        let mu = self.proof.level_squared();
-        if self.curvature(area, at, weight, mu).is_none()
-            || (tying && !self.has_one_foot(area, at, weight))
-        {
+        if tying && !one_foot {
             return false;
         }
+        let mu = self.proof.least_counted();
+        let Some(mut m) = self.curvature(at, mu, allowance, slopes) else { return false };
         let start = self.start(area, place);
         let (found, jet) = self.iterate([area.s[0], area.s[1], area.t[0], area.t[1]], start);
         if tying {
             return true;
         }
-        let proven = match self.curvature(area, at, weight, self.proof.target_squared) {
-            Some(m) => self.first_order(area, found, &jet, m),
-            None => false,
-        };
-        if proven && self.sheet.net.rational && !self.has_one_foot(area, at, weight) {
+        if rational && self.proof.least_counted() != mu {
+            let nearer = self.proof.least_counted();
+            match self.curvature(at, nearer, allowance, slopes) {
+                Some(curvature) => m = curvature,
+                None => return false,
+            }
+        }
+        let proven = self.first_order(area, found, &jet, m);
+        if proven && !one_foot {
             self.proof.loosen(self.proof.target);
         }
         proven
     }
 
-    /// Whether `h`, convex at the level, is so for every squared distance of a foot that counts (it is linear in that, so
-    /// the other end of them decides): then all feet
-    /// are least points of the area, and there is one.
-    fn has_one_foot(&mut self, area: &Area, at: usize, weight: f64) -> bool {
-        let target = self.proof.target;
-        let [first, last] = self.proof.counted(target * target);
-        let other = if self.proof.tying { first } else { last };
-        self.curvature(area, at, weight, other).is_some()
-    }
-
-    /// Bounds of the second derivatives of `h` for the squared distance `mu` (see [`convexity`]).
-    fn curvature(&mut self, area: &Area, at: usize, weight: f64, mu: f64) -> Option<[f64; 3]> {
-        self.form(at, 0, mu);
-        convexity(&self.memory.h[..self.count], self.degree, 4.0 * area.error * weight)
+    /// Bounds of the second derivatives of `h` for the squared distance `mu` (see [`Differences::convexity`]).
+    fn curvature(
+        &mut self,
+        at: usize,
+        mu: f64,
+        allowance: f64,
+        slopes: &Differences,
+    ) -> Option<[f64; 3]> {
+        if self.sheet.net.rational {
+            self.differences(at, mu).convexity(self.degree, allowance)
+        } else {
+            slopes.convexity(self.degree, allowance)
+        }
     }
 
     /// `h >= h(u) - g.M^-1.g / 2` on the area, with `M = [[a, -b], [-b, c]]` the worst Hessian for the slope's signs.
@@ -483,16 +459,12 @@ impl Walk<'_, '_, '_> {
     /// The poles of an area into the scratch memory, as `r` and `W`, and their radius; `None` when a plane separates
     /// them from the query.
     fn cut_free(&mut self, area: &mut Area) -> Option<f64> {
-        let degree = self.sheet.net.degree;
-        let count = degree.count();
-        let components = if self.sheet.net.rational { 4 } else { 3 };
+        let patch = &self.sheet.net;
+        let count = patch.degree.count();
         let net = &mut self.memory.net[..4 * count];
-        net[..components * count].copy_from_slice(self.sheet.net.poles);
-        net[components * count..].fill(1.0);
-        for component in net[..components * count].chunks_exact_mut(count) {
-            cut_2d(component, degree, area.s, area.t);
-        }
-        let radius = subtract_query(net, count, self.sheet.query);
+        let lanes = &mut self.memory.lanes[..count];
+        let query = self.sheet.query;
+        let radius = patch.level.run(CutFree { patch, s: area.s, t: area.t, query, lanes, net });
         let known = self.proof.best.is_finite();
         if known && plane_separates(net, count, self.proof, self.sheet.position) {
             return None;
@@ -513,19 +485,17 @@ impl Walk<'_, '_, '_> {
     /// Rebuilds the coefficients of slot `at` from the poles; true when a plane already separates the query.
     fn load(&mut self, area: &mut Area, at: usize) -> bool {
         let Some(radius) = self.cut_free(area) else { return true };
-        let degree = self.sheet.net.degree;
-        let net = &mut self.memory.net[..4 * degree.count()];
-        square(net, degree, &mut self.memory.coefficients[at * self.slot..(at + 1) * self.slot]);
-        self.set_error(area, at, radius, 3 * degree.count());
+        let count = self.sheet.net.degree.count();
+        let slot = &mut self.memory.coefficients[at * self.slot..(at + 1) * self.slot];
+        self.sheet.grid.square(&mut self.memory.lanes[..count], slot);
+        self.set_error(area, at, radius, 3 * count);
         false
     }
 
     fn halve(&mut self, area: Area, at: usize, direction: usize) {
         let (low, high) =
             self.memory.coefficients[at * self.slot..(at + 2) * self.slot].split_at_mut(self.slot);
-        for (a, b) in low.chunks_exact_mut(self.count).zip(high.chunks_exact_mut(self.count)) {
-            if direction == 0 { halve_s(a, b, self.degree) } else { halve_t(a, b, self.degree) }
-        }
+        let [least, least_high] = self.sheet.grid.halve(direction, low, high);
         let n = if direction == 0 { self.degree.s } else { self.degree.t };
         let growth = 2.0 * HALF_ULP * n as f64 * area.radius * area.radius;
         let child = Area { error: area.error + growth, age: area.age + 1, ..area };
@@ -539,7 +509,7 @@ impl Walk<'_, '_, '_> {
                 (part.error, part.age) = (f64::INFINITY, FRESH);
             }
         }
-        if self.least_ratio(at).0 < self.least_ratio(at + 1).0 {
+        if least < least_high {
             // The more promising half goes on top.
             let (low, high) = self.memory.coefficients[at * self.slot..(at + 2) * self.slot]
                 .split_at_mut(self.slot);

@@ -244,6 +244,11 @@ impl<'t> Proof<'t> {
         [least.max(0.0), self.tie_squared()]
     }
 
+    /// The least squared distance that counts in a box whose own bound is not known.
+    pub fn least_counted(&self) -> f64 {
+        if self.tying { self.target * self.target } else { self.target_squared }
+    }
+
     /// Forgets what was given up, for another walk with the same best foot and half the budget.
     pub fn restart(&mut self) {
         self.lower = f64::INFINITY;

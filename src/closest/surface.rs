@@ -583,6 +583,7 @@ impl SurfaceSearch<'_> {
             position,
             range,
             border: [0, 1, 2, 3].map(|e| patch.border[e] || cut[e]),
+            grid: &self.index.grid,
             method: self.options.method,
             patience,
         };

@@ -180,7 +180,8 @@ impl Slope {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::jet::BezierPatch;
+    use crate::jet::{BezierPatch, Lane, lanes};
+    use crate::simd::Level;
 
     #[test]
     fn slopes_are_the_derivatives_of_the_squared_distance() {
@@ -194,7 +195,9 @@ mod tests {
             let poles = if rational { &poles[..] } else { &poles[..36] };
             let all = [0.0, 1.0, 0.0, 1.0];
             let view = View::new(poles, degree, rational, all, p, [9.0, 1e-15, 0.0]);
-            let patch = BezierPatch { degree, rational, poles };
+            let lanes: Vec<Lane> = lanes(poles, rational).collect();
+            let level = Level::detect();
+            let patch = BezierPatch { degree, rational, poles, lanes: &lanes, level };
             for direction in [0, 1] {
                 let mut slope = view.slope(direction);
                 let k = if rational { 3 } else { 2 };

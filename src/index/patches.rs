@@ -6,10 +6,12 @@ use super::piece::{
 };
 use crate::bezier::{Bidegree, extraction};
 use crate::bounds::{Aabb, HALF_ULP, Vector, add, extent, norm, sub};
+use crate::coefficients::Grid;
 use crate::error::Error;
 use crate::index::segments::pieces;
-use crate::jet::BezierPatch;
+use crate::jet::{BezierPatch, Lane, lanes};
 use crate::knots::Knots;
+use crate::simd::Level;
 use crate::surface::Surface;
 use crate::tree::Tree;
 
@@ -68,7 +70,10 @@ pub struct SurfaceIndex {
     /// Whether the edges u0, u1, v0, v1 are collapsed.
     pub collapsed: [bool; 4],
     nets: Vec<f64>,
+    lanes: Vec<Lane>,
     tensors: Vec<f64>,
+    /// The coefficient arrays of its patches.
+    pub grid: Grid,
 }
 
 /// One direction's spans with their extraction matrices.
@@ -120,6 +125,8 @@ impl SurfaceIndex {
             closed: [surface.is_closed_u(), surface.is_closed_v()],
             collapsed: surface.collapsed_edges(),
             nets: reserved(count * width)?,
+            lanes: reserved(count * degree.count())?,
+            grid: Grid::new(degree, rational, Level::detect()),
             tensors: reserved(if keep_tensors { count * tensor_width } else { 0 })?,
         };
         let mut boxes = reserved(count)?;
@@ -134,8 +141,9 @@ impl SurfaceIndex {
             let at_side = [a == 0, a + 1 == rows, b == 0, b + 1 == columns];
             let collapsed = [0, 1, 2, 3].map(|k| at_side[k] && edges[k]);
             boxes.push(index.push_patch(surface, (&u, a), (&v, b), (collapsed, &points)));
+            let net = &index.nets[k * width..];
+            index.lanes.extend(lanes(net, rational));
             if keep_tensors {
-                let net = &index.nets[k * width..];
                 push_tensors(net, degree, rational, &mut index.tensors);
             }
         }
@@ -256,7 +264,15 @@ impl SurfaceIndex {
     pub fn net(&self, k: usize) -> BezierPatch<'_> {
         let width = self.degree.count() * if self.rational { 4 } else { 3 };
         let poles = &self.nets[k * width..(k + 1) * width];
-        BezierPatch { degree: self.degree, rational: self.rational, poles }
+        let count = self.degree.count();
+        let lanes = &self.lanes[k * count..(k + 1) * count];
+        BezierPatch {
+            degree: self.degree,
+            rational: self.rational,
+            poles,
+            lanes,
+            level: self.grid.level,
+        }
     }
 
     /// Patch `k`'s tensors A, -2 B, C, when they are kept.
@@ -267,9 +283,10 @@ impl SurfaceIndex {
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        (self.nets.capacity() + self.tensors.capacity()) * 8
+        (self.nets.capacity() + self.tensors.capacity() + 4 * self.lanes.capacity()) * 8
             + self.patches.capacity() * size_of::<Patch>()
             + self.tree.memory()
+            + self.grid.memory()
     }
 }
 

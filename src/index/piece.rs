@@ -2,6 +2,7 @@
 
 use crate::bezier::{Bidegree, convolve, convolve_square, scale_down_2d, scale_up_2d};
 use crate::bounds::{Aabb, HALF_ULP, Vector, add, norm, scaled, sub};
+use crate::coefficients::padded;
 use crate::error::Error;
 
 /// Most memory that tensors may take for one shape; beyond it, products are formed per query.
@@ -194,10 +195,10 @@ impl LocalNet {
 
 /// Number of values in the tensors of one piece.
 pub fn tensor_len(degree: Bidegree, rational: bool) -> usize {
-    degree.times(degree).count() * if rational { 5 } else { 4 }
+    padded(degree.times(degree).count()) * if rational { 5 } else { 4 }
 }
 
-/// Appends the tensors A, -2 B (three) and, when rational, C of a net (component by component) to `out`.
+/// Appends the tensors A, -2 B (three) and, when rational, C of a net (component by component) to `out`, each [`padded`].
 pub fn push_tensors(net: &[f64], degree: Bidegree, rational: bool, out: &mut Vec<f64>) {
     let (count, twice) = (degree.count(), degree.times(degree));
     let mut scaled_net = net.to_vec();
@@ -210,7 +211,8 @@ pub fn push_tensors(net: &[f64], degree: Bidegree, rational: bool, out: &mut Vec
     let start = out.len();
     out.resize(start + tensor_len(degree, rational), 0.0);
     let weights = &scaled_net[3 * count..];
-    for (k, tensor) in out[start..].chunks_exact_mut(twice.count()).enumerate() {
+    for (k, tensor) in out[start..].chunks_exact_mut(padded(twice.count())).enumerate() {
+        let tensor = &mut tensor[..twice.count()];
         match k {
             0 => (0..3).for_each(|c| {
                 convolve_square(&scaled_net[c * count..(c + 1) * count], degree, 1.0, tensor);
@@ -257,6 +259,7 @@ mod tests {
         push_tensors(&net, degree, false, &mut out);
         // |(2t, 1, 0)|^2 = 4 t^2 + 1: Bernstein 1, 1, 5. -2 x: 0, -2, -4.
         assert_eq!(out[..3], [1.0, 1.0, 5.0]);
-        assert_eq!(out[3..6], [0.0, -2.0, -4.0]);
+        let next = padded(3);
+        assert_eq!(out[next..next + 3], [0.0, -2.0, -4.0]);
     }
 }

@@ -6,10 +6,12 @@ use super::piece::{
 };
 use crate::bezier::{Bidegree, extraction};
 use crate::bounds::{Aabb, HALF_ULP, Vector, add, extent};
+use crate::coefficients::Grid;
 use crate::curve::Curve;
 use crate::error::Error;
-use crate::jet::BezierSegment;
+use crate::jet::{BezierSegment, Lane, lanes};
 use crate::knots::Knots;
+use crate::simd::Level;
 use crate::tree::Tree;
 
 /// One Bezier segment; its numbers are in [`CurveIndex`]'s arrays.
@@ -39,7 +41,10 @@ pub struct CurveIndex {
     degree: usize,
     rational: bool,
     nets: Vec<f64>,
+    lanes: Vec<Lane>,
     tensors: Vec<f64>,
+    /// The coefficient arrays of its segments.
+    pub grid: Grid,
 }
 
 impl CurveIndex {
@@ -63,6 +68,8 @@ impl CurveIndex {
             degree: p,
             rational,
             nets: reserved(spans.len() * width)?,
+            lanes: reserved(spans.len() * (p + 1))?,
+            grid: Grid::new(degree, rational, Level::detect()),
             tensors: reserved(if keep_tensors { spans.len() * tensor_width } else { 0 })?,
         };
         let mut boxes = reserved(spans.len())?;
@@ -71,8 +78,9 @@ impl CurveIndex {
                 return Err(Error::Cancelled);
             }
             boxes.push(index.push_segment(curve, span));
+            let net = &index.nets[k * width..];
+            index.lanes.extend(lanes(net, rational));
             if keep_tensors {
-                let net = &index.nets[k * width..];
                 push_tensors(net, degree, rational, &mut index.tensors);
             }
         }
@@ -145,7 +153,9 @@ impl CurveIndex {
     pub fn net(&self, k: usize) -> BezierSegment<'_> {
         let width = (self.degree + 1) * if self.rational { 4 } else { 3 };
         let poles = &self.nets[k * width..(k + 1) * width];
-        BezierSegment { degree: self.degree, rational: self.rational, poles }
+        let lanes = &self.lanes[k * (self.degree + 1)..(k + 1) * (self.degree + 1)];
+        let (degree, rational, level) = (self.degree, self.rational, self.grid.level);
+        BezierSegment { degree, rational, poles, lanes, level }
     }
 
     /// Segment `k`'s tensors A, -2 B, C, when they are kept.
@@ -156,9 +166,10 @@ impl CurveIndex {
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        (self.nets.capacity() + self.tensors.capacity()) * 8
+        (self.nets.capacity() + self.tensors.capacity() + 4 * self.lanes.capacity()) * 8
             + self.segments.capacity() * size_of::<Segment>()
             + self.tree.memory()
+            + self.grid.memory()
     }
 }
 

@@ -139,6 +139,8 @@ impl<'a> Search<'a> {
         let origin = self.origin();
         Some(Sheet {
             poles: net.poles,
+            lanes: net.lanes,
+            level: net.level,
             degree: Bidegree { s: 0, t: net.degree },
             rational,
             base,

@@ -166,6 +166,8 @@ impl<'a> Search<'a> {
         let origin = self.origin();
         Some(Sheet {
             poles: net.poles,
+            lanes: net.lanes,
+            level: net.level,
             degree: net.degree,
             rational,
             base,

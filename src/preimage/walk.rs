@@ -4,8 +4,9 @@ use crate::bezier::{Bidegree, convolve_square, cut_2d, scale_down_2d, scale_up_2
 use crate::bounds::{HALF_ULP, Vector, dot, extent, norm, scaled, sub};
 use crate::closest::{convexity, free_slope, slope_error, squared_error};
 use crate::index::product_steps;
-use crate::jet::{BezierPatch, BezierSegment, Jet1, Jet2};
+use crate::jet::{BezierPatch, BezierSegment, Jet1, Jet2, Lane};
 use crate::refine::{CurveJets, Method, SurfaceJets, foot_on_curve, foot_on_surface};
+use crate::simd::Level;
 
 /// Boxes narrower than this are not halved any more.
 const LEAST_WIDTH: f64 = 1e-14;
@@ -32,6 +33,10 @@ pub struct Part {
 pub struct Sheet<'a> {
     /// Poles, component by component.
     pub poles: &'a [f64],
+    /// The same, pole by pole.
+    pub lanes: &'a [Lane],
+    /// Vector instructions.
+    pub level: Level,
     /// Degrees; a curve has degree 0 in s.
     pub degree: Bidegree,
     /// Whether weights are there.
@@ -231,8 +236,8 @@ impl Sheet<'_> {
 
 impl CurveJets for Sheet<'_> {
     fn jet(&self, t: f64) -> Jet1 {
-        let net =
-            BezierSegment { degree: self.degree.t, rational: self.rational, poles: self.poles };
+        let Self { poles, lanes, level, rational, .. } = *self;
+        let net = BezierSegment { degree: self.degree.t, rational, poles, lanes, level };
         let jet = net.jet(t, self.base);
         Jet1 { d: self.seen(jet.d), s: self.seen(jet.s), ss: self.seen(jet.ss), w: jet.w }
     }
@@ -244,7 +249,8 @@ impl CurveJets for Sheet<'_> {
 
 impl SurfaceJets for Sheet<'_> {
     fn jet(&self, s: f64, t: f64) -> Jet2 {
-        let net = BezierPatch { degree: self.degree, rational: self.rational, poles: self.poles };
+        let Self { poles, lanes, level, rational, degree, .. } = *self;
+        let net = BezierPatch { degree, rational, poles, lanes, level };
         let jet = net.jet(s, t, self.base);
         let [d, s, t, ss, st, tt] =
             [jet.d, jet.s, jet.t, jet.ss, jet.st, jet.tt].map(|x| self.seen(x));

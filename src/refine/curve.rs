@@ -120,6 +120,8 @@ fn osculating(jet: &Jet1, g: f64, speed: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::jet::{Lane, lanes};
+    use crate::simd::Level;
 
     fn cubic() -> [f64; 12] {
         [0.0, 1.0, 2.0, 3.0, 0.0, 2.0, -1.0, 1.0, 0.0, 0.0, 1.0, 0.5]
@@ -128,7 +130,14 @@ mod tests {
     #[test]
     fn every_method_finds_a_planted_foot() {
         let poles = cubic();
-        let segment = BezierSegment { degree: 3, rational: false, poles: &poles };
+        let lanes: Vec<Lane> = lanes(&poles, false).collect();
+        let segment = BezierSegment {
+            degree: 3,
+            rational: false,
+            poles: &poles,
+            lanes: &lanes,
+            level: Level::detect(),
+        };
         for s in [0.1, 0.37, 0.8] {
             let jet = segment.jet(s, [0.0; 3]);
             let side = crate::bounds::cross(jet.s, [0.3, 0.2, 1.0]);
@@ -145,7 +154,14 @@ mod tests {
     #[test]
     fn ends_hold_a_foot_that_wants_to_leave() {
         let poles = cubic();
-        let segment = BezierSegment { degree: 3, rational: false, poles: &poles };
+        let lanes: Vec<Lane> = lanes(&poles, false).collect();
+        let segment = BezierSegment {
+            degree: 3,
+            rational: false,
+            poles: &poles,
+            lanes: &lanes,
+            level: Level::detect(),
+        };
         let (s, _, _) =
             foot_on_curve(&(segment, [-2.0, -1.0, 0.0]), 0.3, [0.0, 1.0], Method::Auto, None);
         assert_eq!(s, 0.0);

@@ -331,6 +331,8 @@ mod tests {
     use super::*;
     use crate::bezier::Bidegree;
     use crate::bounds::{add, scaled};
+    use crate::jet::{Lane, lanes};
+    use crate::simd::Level;
 
     fn patch_poles() -> Vec<f64> {
         let (mut x, mut y, mut z) = (vec![], vec![], vec![]);
@@ -347,7 +349,14 @@ mod tests {
     #[test]
     fn every_method_finds_a_planted_foot() {
         let poles = patch_poles();
-        let patch = BezierPatch { degree: Bidegree { s: 3, t: 3 }, rational: false, poles: &poles };
+        let lanes: Vec<Lane> = lanes(&poles, false).collect();
+        let patch = BezierPatch {
+            degree: Bidegree { s: 3, t: 3 },
+            rational: false,
+            poles: &poles,
+            lanes: &lanes,
+            level: Level::detect(),
+        };
         for (s, t) in [(0.2, 0.7), (0.5, 0.5), (0.9, 0.1)] {
             let jet = patch.jet(s, t, [0.0; 3]);
             let n = cross(jet.s, jet.t);
@@ -369,7 +378,14 @@ mod tests {
     #[test]
     fn the_osculating_step_is_of_second_order_off_the_surface() {
         let poles = patch_poles();
-        let patch = BezierPatch { degree: Bidegree { s: 3, t: 3 }, rational: false, poles: &poles };
+        let lanes: Vec<Lane> = lanes(&poles, false).collect();
+        let patch = BezierPatch {
+            degree: Bidegree { s: 3, t: 3 },
+            rational: false,
+            poles: &poles,
+            lanes: &lanes,
+            level: Level::detect(),
+        };
         let jet = patch.jet(0.4, 0.6, [0.0; 3]);
         let n = cross(jet.s, jet.t);
         let query = add(jet.d, scaled(n, 0.4 / dot(n, n).sqrt()));
@@ -386,7 +402,14 @@ mod tests {
     #[test]
     fn corners_and_edges_hold_a_foot_that_wants_to_leave() {
         let poles = patch_poles();
-        let patch = BezierPatch { degree: Bidegree { s: 3, t: 3 }, rational: false, poles: &poles };
+        let lanes: Vec<Lane> = lanes(&poles, false).collect();
+        let patch = BezierPatch {
+            degree: Bidegree { s: 3, t: 3 },
+            rational: false,
+            poles: &poles,
+            lanes: &lanes,
+            level: Level::detect(),
+        };
         let all = [0.0, 1.0, 0.0, 1.0];
         let (at, _, _) =
             foot_on_surface(&(patch, [-3.0, -3.0, 0.0]), [0.5, 0.5], all, Method::Auto, None);

@@ -7,7 +7,7 @@ use super::{Area, Walk};
 use crate::bezier::{cut_2d, isocurve};
 use crate::bounds::extent;
 use crate::index::{product_steps, side};
-use crate::jet::{BezierSegment, Jet2};
+use crate::jet::{BezierSegment, Jet2, lanes};
 use crate::knots::MAX_DEGREE;
 
 impl Walk<'_, '_, '_> {
@@ -60,10 +60,21 @@ impl Walk<'_, '_, '_> {
                 c[i] = self.c(at)[place];
             }
         }
+        let poles = &net[..components * (p + 1)];
+        let mut pole_lanes = [[0.0; 4]; MAX_DEGREE + 1];
+        for (lane, pole) in pole_lanes.iter_mut().zip(lanes(poles, rational)) {
+            *lane = pole;
+        }
         let (piece, fixed) = (self.sheet.piece, ends[k]);
         let site = |x: f64| Site { piece, at: if along_s { [x, fixed] } else { [fixed, x] } };
         let line = Line {
-            segment: BezierSegment { degree: p, rational, poles: &net[..components * (p + 1)] },
+            segment: BezierSegment {
+                degree: p,
+                rational,
+                poles,
+                lanes: &pole_lanes[..=p],
+                level: self.sheet.net.level,
+            },
             query: self.sheet.query,
             position: self.sheet.position,
             range,
@@ -135,7 +146,8 @@ impl Walk<'_, '_, '_> {
             w.clear();
             w.extend_from_slice(&self.sheet.net.poles[3 * net.count()..]);
             cut_2d(w, net, area.s, area.t);
-            let n = &self.memory.coefficients[at * self.slot..at * self.slot + self.count];
+            let slot = &self.memory.coefficients[at * self.slot..(at + 1) * self.slot];
+            let n = self.sheet.grid.n(slot);
             let found = rational_slope_extent(n, w, net, k, &mut memory);
             let size = product_steps(2 * net.count()) * area.radius * area.radius;
             (found, 8.0 * n_degree * extent(w).1 * weight * (area.error + size))
