@@ -714,7 +714,7 @@ typedef struct fpt_scene_data {
      */
     size_t struct_size;
     /**
-     * At least 1, less than 2^31.
+     * 1 to 2^31 - 1.
      */
     size_t member_count;
     /**
