@@ -20,6 +20,8 @@ mod certificate;
 
 mod differences;
 
+mod net;
+
 mod line;
 
 mod collapsed;

@@ -358,7 +358,50 @@ impl Kernel for PatchJet<'_> {
     }
 }
 
+struct PatchVector<'a>(&'a BezierPatch<'a>, [f64; 2], Vector);
+
+impl PatchVector<'_> {
+    #[inline(always)]
+    fn sum<S: Simd, const ROWS: usize, const N: usize>(&self) -> S::F4 {
+        let (rows, columns) = (self.0.degree.s + 1, self.0.degree.t + 1);
+        let [across, ..] = bernstein::<ROWS>(rows, self.1[0]);
+        let [along, ..] = bernstein::<N>(columns, self.1[1]);
+        let mut sum = S::F4::splat(0.0);
+        for (row, b) in self.0.lanes.chunks_exact(columns).zip(&across) {
+            let mut part = S::F4::splat(0.0);
+            for (lane, b) in row.iter().zip(&along) {
+                part = part + S::F4::splat(*b) * S::F4::load(lane);
+            }
+            sum = sum + S::F4::splat(*b) * part;
+        }
+        sum
+    }
+}
+
+impl Kernel for PatchVector<'_> {
+    type Out = Vector;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) -> Vector {
+        let sum = if self.0.degree.s.max(self.0.degree.t) <= FIXED {
+            self.sum::<S, { FIXED + 1 }, { FIXED + 1 }>()
+        } else {
+            self.sum::<S, { MAX_DEGREE + 1 }, { MAX_DEGREE + 1 }>()
+        };
+        if !self.0.rational {
+            return sub(vector(sum), self.2);
+        }
+        let w = S::F4::splat(weight(sum));
+        vector((sum - w * S::F4::load(&[self.2[0], self.2[1], self.2[2], 0.0])) / w)
+    }
+}
+
 impl BezierPatch<'_> {
+    /// The vector from the query `p` to the point at `(s, t)`: the jet without its derivatives.
+    pub fn vector(&self, s: f64, t: f64, p: Vector) -> Vector {
+        self.level.run(PatchVector(self, [s, t], p))
+    }
+
     /// The jet at `(s, t)` for the query `p`.
     pub fn jet(&self, s: f64, t: f64, p: Vector) -> Jet2 {
         self.level.run(PatchJet(self, [s, t], p))
@@ -452,5 +495,6 @@ mod tests {
         close(jet.ss, central(sp, sm, |j| j.s));
         close(jet.st, central(tp, tm, |j| j.s));
         close(jet.tt, central(tp, tm, |j| j.t));
+        assert!(norm(sub(jet.d, patch.vector(s, t, p))) < 1e-15);
     }
 }

@@ -3,7 +3,6 @@
 //! Every function here errs on one side only; `docs/rounding.md` derives the counts.
 
 use super::proof::Proof;
-use crate::bezier::{Bidegree, convolve_square, scale_down_2d, scale_up_2d};
 use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, scaled, sub};
 
 /// Rounding of the coefficients of `N = |r|^2` relative to those of `C = W^2`, as a squared length.
@@ -129,24 +128,6 @@ pub fn foot_plane_separates(
         (0..count).all(|k| height(k) > least * poles[3 * count + k])
     } else {
         (0..count).all(|k| height(k) > least)
-    }
-}
-
-/// Coefficients of `|r|^2` and, when the slot has room for it, of `W^2`.
-pub fn square(net: &mut [f64], degree: Bidegree, slot: &mut [f64]) {
-    let (count, twice) = (degree.count(), degree.times(degree));
-    slot.fill(0.0);
-    for component in net.chunks_exact_mut(count) {
-        scale_up_2d(component, degree);
-    }
-    let (n, c) = slot.split_at_mut(twice.count());
-    for component in net[..3 * count].chunks_exact(count) {
-        convolve_square(component, degree, 1.0, n);
-    }
-    scale_down_2d(n, twice);
-    if !c.is_empty() {
-        convolve_square(&net[3 * count..], degree, 1.0, c);
-        scale_down_2d(c, twice);
     }
 }
 

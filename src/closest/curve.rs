@@ -5,7 +5,7 @@ mod ties;
 pub use ties::{neighbour, shortest, wrapped};
 
 use super::certificate::squared_error;
-use super::line::{Given, Line, LineMemory, search_line};
+use super::line::{Given, Line, LineMemory, Source, search_line};
 use super::local::{LOCAL_FLAGS, WholeCurve, curve_start};
 use super::proof::{Proof, Site, Watch, note_loose};
 use super::within::{Within, nothing_within};
@@ -15,7 +15,6 @@ use super::{
     tree_limit, tree_slack, ulp,
 };
 use crate::bounds::{Vector, cross, dot, norm, sub};
-use crate::coefficients::padded;
 use crate::error::Error;
 use crate::index::{CurveIndex, IndexedCurve, position_error, position_steps, product_steps};
 use crate::refine::{Trace, foot_on_curve};
@@ -392,40 +391,15 @@ impl CurveSearch<'_> {
                 segment.border[1] || self.range[1] <= segment.u.ends[1],
             ],
             site: &site,
+            grid: &self.index.grid,
             method: self.options.method,
         };
-        let mut product = [0.0; 2 * (2 * crate::knots::MAX_DEGREE + 1)];
-        let given = match self.index.tensors(k) {
-            Some(tensors) if range == [0.0, 1.0] => {
-                Some(multiply(tensors, p, line.segment.degree, line.segment.rational, &mut product))
-            }
-            _ => None,
+        let source = match self.index.tensors(k) {
+            Some(tensors) if range == [0.0, 1.0] => Source::Tensors(tensors),
+            _ => Source::Poles,
         };
-        let given = given.map(|(n, c)| {
-            let radius = segment.radius + size;
-            let steps = product_steps(line.segment.degree + 1);
-            Given { n, c, error: squared_error(position, radius, steps), radius }
-        });
-        search_line(&line, given, memory, proof);
+        let radius = segment.radius + size;
+        let error = squared_error(position, radius, product_steps(line.segment.degree + 1));
+        search_line(&line, &Given { source, error, radius }, memory, proof);
     }
-}
-
-/// Coefficients of N and C from the tensors of a segment.
-fn multiply<'a>(
-    tensors: &[f64],
-    p: Vector,
-    degree: usize,
-    rational: bool,
-    out: &'a mut [f64],
-) -> (&'a [f64], &'a [f64]) {
-    let (count, size) = (2 * degree + 1, padded(2 * degree + 1));
-    let square = dot(p, p);
-    let (n, c) = out.split_at_mut(count);
-    for k in 0..count {
-        let weight = if rational { tensors[4 * size + k] } else { 1.0 };
-        let xy = p[0] * tensors[size + k] + p[1] * tensors[2 * size + k];
-        n[k] = tensors[k] + xy + (p[2] * tensors[3 * size + k] + square * weight);
-        c[k] = weight;
-    }
-    (n, if rational { &c[..count] } else { &[] })
 }

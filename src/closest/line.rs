@@ -8,14 +8,15 @@
 //! ```
 
 use super::certificate::{
-    free_slope, nearness, plane_separates, slope_error, square, squared_error, subtract_query,
-    underflows, value_at,
+    free_slope, nearness, plane_separates, slope_error, squared_error, underflows, value_at,
 };
+use super::net::CutFree;
 use super::proof::{Proof, Site};
-use crate::bezier::{Bidegree, cut, halve_t};
-use crate::bounds::{HALF_ULP, Vector, dot, extent, norm};
+use crate::bezier::Bidegree;
+use crate::bounds::{HALF_ULP, Vector, dot, norm};
+use crate::coefficients::{Differences, Grid};
 use crate::index::product_steps;
-use crate::jet::{BezierSegment, Jet1};
+use crate::jet::{BezierSegment, Jet1, Lane};
 use crate::knots::MAX_DEGREE;
 use crate::refine::{Method, foot_on_curve};
 
@@ -42,6 +43,8 @@ pub struct Line<'a> {
     pub border: [bool; 2],
     /// The local parameters of a place on the line, for the record.
     pub site: &'a dyn Fn(f64) -> Site,
+    /// The coefficient arrays.
+    pub grid: &'a Grid,
     /// Local iteration.
     pub method: Method,
 }
@@ -63,28 +66,38 @@ pub struct LineMemory {
     waiting: Vec<Interval>,
     coefficients: Vec<f64>,
     net: Vec<f64>,
+    lanes: Vec<Lane>,
     h: Vec<f64>,
 }
 
 impl LineMemory {
-    fn reserve(&mut self, degree: usize) {
-        let slot = 2 * (2 * degree + 1);
-        if self.coefficients.len() < slot * MAX_WAITING {
-            self.coefficients.resize(slot * MAX_WAITING, 0.0);
+    fn reserve(&mut self, grid: &Grid) {
+        if self.h.len() < grid.stride {
+            // As if rational, so that shapes with and without weights take turns without growing.
+            self.coefficients.resize(2 * grid.stride * MAX_WAITING, 0.0);
             self.waiting.reserve(MAX_WAITING);
             self.net.resize(4 * (MAX_DEGREE + 1), 0.0);
-            self.h.resize(2 * (2 * MAX_DEGREE + 1), 0.0);
+            self.lanes.resize(MAX_DEGREE + 1, [0.0; 4]);
+            self.h.resize(grid.stride, 0.0);
         }
     }
 }
 
-/// Coefficients handed over by the caller: those of `N` and, when rational, of `C` on the whole range.
+/// Coefficients of `N` and, when rational, of `C` on the whole range, as the caller has them.
+pub enum Source<'a> {
+    /// Not there: they are formed from the poles.
+    Poles,
+    /// The tensors of the piece (see [`Grid::multiply`]).
+    Tensors(&'a [f64]),
+    /// The coefficients themselves; those of C are empty when polynomial.
+    Products(&'a [f64], &'a [f64]),
+}
+
+/// A [`Source`] with its rounding (see [`squared_error`]) and the radius that this was made with.
 pub struct Given<'a> {
-    /// Coefficients of N.
-    pub n: &'a [f64],
-    /// Coefficients of C, empty when polynomial.
-    pub c: &'a [f64],
-    /// Their rounding (see [`squared_error`]) and the radius it was made with.
+    /// Where the coefficients come from.
+    pub source: Source<'a>,
+    /// Their rounding; not for [`Source::Poles`].
     pub error: f64,
     /// See `error`.
     pub radius: f64,
@@ -92,7 +105,7 @@ pub struct Given<'a> {
 
 /// Searches the line. On return every point of it is at least `proof.target` away, or given up in `proof.lower`,
 /// or cannot be the nearest point of the whole shape.
-pub fn search_line(line: &Line, given: Option<Given>, memory: &mut LineMemory, proof: &mut Proof) {
+pub fn search_line(line: &Line, given: &Given, memory: &mut LineMemory, proof: &mut Proof) {
     Walk::new(line, memory, proof).run(given);
 }
 
@@ -100,9 +113,9 @@ struct Walk<'a, 'b, 't> {
     line: &'a Line<'b>,
     memory: &'a mut LineMemory,
     proof: &'a mut Proof<'t>,
-    /// Coefficients of one polynomial.
-    count: usize,
     slot: usize,
+    /// Where the last iteration ended.
+    last: Option<(f64, Jet1)>,
 }
 
 /// What became of an interval.
@@ -114,36 +127,34 @@ enum Verdict {
 
 impl<'a, 'b, 't> Walk<'a, 'b, 't> {
     fn new(line: &'a Line<'b>, memory: &'a mut LineMemory, proof: &'a mut Proof<'t>) -> Self {
-        memory.reserve(line.segment.degree);
+        memory.reserve(line.grid);
         memory.waiting.clear();
-        let count = 2 * line.segment.degree + 1;
-        Self {
-            line,
-            memory,
-            proof,
-            count,
-            slot: if line.segment.rational { 2 * count } else { count },
-        }
+        Self { line, memory, proof, slot: line.grid.slot(), last: None }
     }
 
-    fn run(&mut self, given: Option<Given>) {
+    /// Coefficients of the whole range into slot 0; true when a plane already separates the query.
+    fn open(&mut self, given: &Given, first: &mut Interval) -> bool {
+        let grid = self.line.grid;
+        let slot = &mut self.memory.coefficients[..self.slot];
+        match given.source {
+            Source::Poles => return self.load(first, 0),
+            Source::Tensors(tensors) => {
+                let p = self.line.query;
+                grid.multiply(tensors, p, dot(p, p), slot);
+            }
+            Source::Products(n, c) => grid.fill(n, c, slot),
+        }
+        let lost = underflows(self.c(0));
+        first.error = if lost { f64::INFINITY } else { given.error };
+        first.radius = given.radius;
+        false
+    }
+
+    fn run(&mut self, given: &Given) {
         let [low, high] = self.line.range;
         let mut first = Interval { low, high, ..Interval::default() };
-        match given {
-            Some(given) => {
-                self.memory.coefficients[..self.count].copy_from_slice(given.n);
-                if self.line.segment.rational {
-                    self.memory.coefficients[self.count..self.slot].copy_from_slice(given.c);
-                }
-                let lost = underflows(given.c);
-                first.error = if lost { f64::INFINITY } else { given.error };
-                first.radius = given.radius;
-            }
-            None => {
-                if self.load(&mut first, 0) {
-                    return;
-                }
-            }
+        if self.open(given, &mut first) {
+            return;
         }
         self.memory.waiting.push(first);
         while let Some(mut interval) = self.memory.waiting.pop() {
@@ -162,24 +173,18 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         }
     }
 
-    fn n(&self, at: usize) -> &[f64] {
-        &self.memory.coefficients[at * self.slot..at * self.slot + self.count]
+    fn slot(&self, at: usize) -> &[f64] {
+        &self.memory.coefficients[at * self.slot..(at + 1) * self.slot]
     }
 
     fn c(&self, at: usize) -> &[f64] {
-        &self.memory.coefficients[at * self.slot + self.count..(at + 1) * self.slot]
+        self.line.grid.c(self.slot(at))
     }
 
-    /// Least ratio N / C of the coefficients and its index: a bound of the squared distance but for rounding.
-    fn least_ratio(&self, at: usize) -> (f64, usize) {
-        let mut least = (f64::INFINITY, 0);
-        for (k, &n) in self.n(at).iter().enumerate() {
-            let ratio = if self.line.segment.rational { n / self.c(at)[k] } else { n };
-            if ratio < least.0 {
-                least = (ratio, k);
-            }
-        }
-        least
+    /// Least ratio N / C of the coefficients, its index, and the greatest C: a bound of the squared distance but for
+    /// rounding.
+    fn least_ratio(&self, at: usize) -> (f64, usize, f64) {
+        self.line.grid.least_ratio(self.slot(at))
     }
 
     fn bound(&self, interval: &Interval, at: usize) -> f64 {
@@ -187,10 +192,10 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
     }
 
     fn judge(&mut self, interval: &mut Interval, at: usize) -> Verdict {
-        let (mut least, mut place) = self.least_ratio(at);
-        if self.is_beyond(interval, least) {
+        if self.is_beyond(interval, at) {
             return Verdict::Closed;
         }
+        let (mut least, mut place, mut weight) = self.least_ratio(at);
         if self.proof.best == f64::INFINITY {
             self.iterate(interval, place, self.line.range);
             interval.error += 8.0 * HALF_ULP * self.proof.target_squared;
@@ -200,21 +205,19 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         }
         let close = least > self.proof.level_squared() && interval.age > 0;
         if interval.age >= FRESH || close || self.proof.tying {
-            if self.load(interval, at) {
+            if self.load(interval, at) || self.is_beyond(interval, at) {
                 return Verdict::Closed;
             }
-            (least, place) = self.least_ratio(at);
-            if self.is_beyond(interval, least) {
-                return Verdict::Closed;
-            }
+            (least, place, weight) = self.least_ratio(at);
         }
-        if let Some(end) = self.monotone(interval, at, least) {
+        let slopes = self.slopes(interval, at, least);
+        if let Some(end) = monotone(slopes.t, 2.0 * interval.error * weight) {
             if self.is_border(interval, end) {
                 self.look_at_end(interval, end);
             }
             return Verdict::Closed;
         }
-        if self.convex(interval, at, place) {
+        if self.convex(interval, at, place, weight, &slopes) {
             return Verdict::Closed;
         }
         if interval.small {
@@ -227,14 +230,14 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
     }
 
     /// Whether nothing in the interval is nearer than the target (in a walk for ties: than their reach).
-    fn is_beyond(&mut self, interval: &Interval, least: f64) -> bool {
-        if least.is_nan() || least <= self.proof.level_squared() + interval.error {
-            return false;
-        }
-        if least <= self.proof.tie_squared() + interval.error {
+    fn is_beyond(&mut self, interval: &Interval, at: usize) -> bool {
+        let (level, ties) = (self.proof.level_squared(), self.proof.tie_squared());
+        let mu = [level + interval.error, ties + interval.error];
+        let [beyond, beyond_ties] = self.line.grid.all_beyond(self.slot(at), mu);
+        if beyond && !beyond_ties && !self.proof.tying {
             self.proof.loosen(self.proof.target);
         }
-        true
+        beyond
     }
 
     fn is_border(&self, interval: &Interval, end: usize) -> bool {
@@ -250,37 +253,21 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         self.proof.rival((self.line.site)(s), jet.d);
     }
 
-    /// Coefficients of `N - mu C` into half `part` of the scratch memory.
-    fn form(&mut self, at: usize, part: usize, mu: f64) {
-        for k in 0..self.count {
-            let n = self.n(at)[k];
-            let c = if self.line.segment.rational { self.c(at)[k] } else { 1.0 };
-            self.memory.h[part * self.count + k] = n - mu * c;
-        }
+    /// Differences of `N - mu C`.
+    fn differences(&mut self, at: usize, mu: f64) -> Differences {
+        let slot = &self.memory.coefficients[at * self.slot..(at + 1) * self.slot];
+        self.line.grid.differences(slot, mu, &mut self.memory.h)
     }
 
-    fn greatest_weight(&self, at: usize) -> f64 {
-        if self.line.segment.rational { extent(self.c(at)).1 } else { 1.0 }
-    }
-
-    /// The end at which `h` is least, when it is strictly monotone for every squared distance that a nearest
-    /// point in this interval can have.
-    fn monotone(&mut self, interval: &Interval, at: usize, least: f64) -> Option<usize> {
+    /// Differences of `h` over every squared distance that a nearest point in this interval can have: first ones of both
+    /// ends, second ones of the greatest.
+    fn slopes(&mut self, interval: &Interval, at: usize, least: f64) -> Differences {
         let [first, last] = self.proof.counted(least - interval.error);
-        self.form(at, 0, first);
-        self.form(at, 1, last);
-        let allowance = 2.0 * interval.error * self.greatest_weight(at);
-        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        for h in self.memory.h[..2 * self.count].chunks_exact(self.count) {
-            for pair in h.windows(2) {
-                low = low.min(pair[1] - pair[0]);
-                high = high.max(pair[1] - pair[0]);
-            }
+        let mut slopes = self.differences(at, last);
+        if self.line.segment.rational {
+            slopes.include_first(&self.differences(at, first));
         }
-        if low > allowance {
-            return Some(0);
-        }
-        (high < -allowance).then_some(1)
+        slopes
     }
 
     /// Runs the local iteration in a range from the Greville abscissa of coefficient `place`.
@@ -313,12 +300,13 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         if (s == low && low != first) || (s == high && high != last) || taken >= LONG {
             self.proof.cut_off((self.line.site)(s));
         }
+        self.last = Some((s, jet));
         (s, jet)
     }
 
     /// The Greville abscissa of coefficient `place`.
     fn abscissa(&self, interval: &Interval, place: usize) -> f64 {
-        let share = place as f64 / (self.count - 1) as f64;
+        let share = place as f64 / self.line.grid.degree.t as f64;
         interval.low + share * (interval.high - interval.low)
     }
 
@@ -333,48 +321,65 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
     }
 
     /// Whether convexity and the first-order conditions at the iteration's result prove the target; in a walk for ties,
-    /// whether convexity proves that there is one foot only.
-    fn convex(&mut self, interval: &Interval, at: usize, place: usize) -> bool {
-        let weight = self.greatest_weight(at);
-        let mu = self.proof.level_squared();
-        if self.curvature(interval, at, weight, mu) <= 0.0 {
+    /// whether convexity proves that there is one foot only. `slopes`: of `h` for the greatest distance that counts.
+    fn convex(
+        &mut self,
+        interval: &Interval,
+        at: usize,
+        place: usize,
+        weight: f64,
+        slopes: &Differences,
+    ) -> bool {
+        let allowance = 4.0 * interval.error * weight;
+        let rational = self.line.segment.rational;
+        // `h` is linear in the squared distance: convex for the least and the greatest that count, all feet are least
+        // points of the interval, and there is one.
+        let one_foot = !rational || self.second_derivative(slopes, allowance) > 0.0;
+        let tying = self.proof.tying;
+        if tying && !one_foot {
             return false;
         }
-        if self.proof.tying && !self.has_one_foot(interval, at, weight) {
+        let mu = self.proof.least_counted();
+        let mut m = self.curvature(at, mu, allowance, slopes);
+        if m <= 0.0 {
             return false;
         }
-        let (s, jet) = self.iterate(interval, place, [interval.low, interval.high]);
-        if self.proof.tying {
+        let here = |s: f64| (interval.low..=interval.high).contains(&s);
+        let known = self.last.filter(|(s, _)| !tying && here(*s));
+        if known.is_some_and(|(s, jet)| self.first_order(interval, s, &jet, m)) {
+            // The iteration that ended there need not be repeated to see that it is the least here.
+            if !one_foot {
+                self.proof.loosen(self.proof.target);
+            }
             return true;
         }
-        let curvature = self.curvature(interval, at, weight, self.proof.target_squared);
-        if curvature <= 0.0 || !self.first_order(interval, s, &jet, curvature) {
-            return false;
+        let (s, jet) = self.iterate(interval, place, [interval.low, interval.high]);
+        if tying {
+            return true;
         }
-        if self.line.segment.rational && !self.has_one_foot(interval, at, weight) {
+        if rational && self.proof.least_counted() != mu {
+            m = self.curvature(at, self.proof.least_counted(), allowance, slopes);
+        }
+        let proven = m > 0.0 && self.first_order(interval, s, &jet, m);
+        if proven && !one_foot {
             self.proof.loosen(self.proof.target);
         }
-        true
-    }
-
-    /// Whether `h`, convex at the level, is so for every squared distance of a foot that counts (it is linear in that, so
-    /// the other end of them decides): then all feet
-    /// are least points of the interval, and there is one.
-    fn has_one_foot(&mut self, interval: &Interval, at: usize, weight: f64) -> bool {
-        let target = self.proof.target;
-        let [first, last] = self.proof.counted(target * target);
-        let other = if self.proof.tying { first } else { last };
-        self.curvature(interval, at, weight, other) > 0.0
+        proven
     }
 
     /// A lower bound of the second derivative of `h` for the squared distance `mu`, in the interval's own unit parameter.
-    fn curvature(&mut self, interval: &Interval, at: usize, weight: f64, mu: f64) -> f64 {
-        self.form(at, 0, mu);
-        let n = (self.count - 1) as f64;
-        let h = &self.memory.h[..self.count];
-        let least =
-            h.windows(3).map(|w| (w[2] - w[1]) - (w[1] - w[0])).fold(f64::INFINITY, f64::min);
-        n * (n - 1.0) * (least - 4.0 * interval.error * weight)
+    fn curvature(&mut self, at: usize, mu: f64, allowance: f64, slopes: &Differences) -> f64 {
+        if self.line.segment.rational {
+            let differences = self.differences(at, mu);
+            self.second_derivative(&differences, allowance)
+        } else {
+            self.second_derivative(slopes, allowance)
+        }
+    }
+
+    fn second_derivative(&self, differences: &Differences, allowance: f64) -> f64 {
+        let n = self.line.grid.degree.t as f64;
+        n * (n - 1.0) * (differences.tt - allowance)
     }
 
     /// `h >= h(s) - g^2 / (2 m)` on the interval; with `g` the slope that can lower h and `m` the curvature.
@@ -392,16 +397,19 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
 
     /// Rebuilds the coefficients of slot `at` from the poles; true when a plane already separates the query.
     fn load(&mut self, interval: &mut Interval, at: usize) -> bool {
-        let p = self.line.segment.degree;
-        let size = p + 1;
-        let components = if self.line.segment.rational { 4 } else { 3 };
+        let segment = &self.line.segment;
+        let (p, size) = (segment.degree, segment.degree + 1);
         let net = &mut self.memory.net[..4 * size];
-        net[..components * size].copy_from_slice(self.line.segment.poles);
-        net[components * size..].fill(1.0);
-        for component in net[..components * size].chunks_exact_mut(size) {
-            cut(component, p, 1, 1, interval.low, interval.high);
-        }
-        let radius = subtract_query(net, size, self.line.query);
+        let radius = segment.level.run(CutFree {
+            poles: segment.lanes,
+            degree: Bidegree { s: 0, t: p },
+            rational: segment.rational,
+            s: [0.0, 1.0],
+            t: [interval.low, interval.high],
+            query: self.line.query,
+            lanes: &mut self.memory.lanes[..size],
+            net,
+        });
         if self.proof.best.is_finite() && plane_separates(net, size, self.proof, self.line.position)
         {
             return true;
@@ -414,7 +422,7 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
             }
         }
         let slot = &mut self.memory.coefficients[at * self.slot..(at + 1) * self.slot];
-        square(net, Bidegree { s: 0, t: p }, slot);
+        self.line.grid.square(&mut self.memory.lanes[..size], slot);
         let mu = if self.proof.best.is_finite() { self.proof.target_squared } else { 0.0 };
         let error = squared_error(self.line.position, radius, product_steps(3 * size));
         let lost = self.line.segment.rational && underflows(self.c(at));
@@ -429,14 +437,12 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
             self.proof.give_up(bound);
             return;
         }
-        let degree = Bidegree { s: 0, t: self.count - 1 };
         let (low, high) =
             self.memory.coefficients[at * self.slot..(at + 2) * self.slot].split_at_mut(self.slot);
-        for (a, b) in low.chunks_exact_mut(self.count).zip(high.chunks_exact_mut(self.count)) {
-            halve_t(a, b, degree);
-        }
+        let [least, least_high] = self.line.grid.halve(1, low, high);
         let middle = 0.5 * (interval.low + interval.high);
-        let growth = 2.0 * HALF_ULP * (self.count - 1) as f64 * interval.radius * interval.radius;
+        let n = self.line.grid.degree.t as f64;
+        let growth = 2.0 * HALF_ULP * n * interval.radius * interval.radius;
         let child = Interval { error: interval.error + growth, age: interval.age + 1, ..interval };
         let mut pair = [Interval { high: middle, ..child }, Interval { low: middle, ..child }];
         // Inside a restriction the middle may be rounded; then the halves are not those of the coefficients.
@@ -445,7 +451,7 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
                 (part.error, part.age) = (f64::INFINITY, FRESH);
             }
         }
-        if self.least_ratio(at).0 < self.least_ratio(at + 1).0 {
+        if least < least_high {
             // The more promising half goes on top.
             let (low, high) = self.memory.coefficients[at * self.slot..(at + 2) * self.slot]
                 .split_at_mut(self.slot);
@@ -454,4 +460,12 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         }
         self.memory.waiting.extend(pair);
     }
+}
+
+/// The end at which `h` is least, when its differences along t show it to be strictly monotone.
+fn monotone([low, high]: [f64; 2], allowance: f64) -> Option<usize> {
+    if low > allowance {
+        return Some(0);
+    }
+    (high < -allowance).then_some(1)
 }

@@ -4,7 +4,6 @@
 //! At a collapsed side the derivative along it vanishes for every shape: the collapsed point is looked at once,
 //! and off that side the sign of the derivative of the distance itself is used (see [`Walk::turning`]).
 
-mod net;
 mod sides;
 
 use super::certificate::{
@@ -12,6 +11,7 @@ use super::certificate::{
     squared_error, tilted_height, underflows, value_at,
 };
 use super::line::LineMemory;
+use super::net::CutFree;
 use super::proof::{Proof, Site};
 use crate::bezier::Bidegree;
 use crate::bounds::{HALF_ULP, Vector, dot, norm};
@@ -20,7 +20,6 @@ use crate::index::{Patch, product_steps};
 use crate::jet::{BezierPatch, Jet2};
 use crate::knots::MAX_DEGREE;
 use crate::refine::{Method, foot_on_surface};
-use net::CutFree;
 
 const MAX_WAITING: usize = 128;
 const LEAST_WIDTH: f64 = 1e-14;
@@ -52,8 +51,10 @@ pub struct Sheet<'a> {
     pub range: [f64; 4],
     /// Whether a foot with a gradient may sit on the four sides of `range`.
     pub border: [bool; 4],
-    /// The coefficient arrays.
+    /// The coefficient arrays, and those of edges along s and along t.
     pub grid: &'a Grid,
+    /// See `grid`.
+    pub edge_grids: &'a [Grid; 2],
     /// Local iteration.
     pub method: Method,
     /// Boxes after which the patch is put off.
@@ -107,7 +108,7 @@ pub fn search_patch(sheet: &Sheet, memory: &mut PatchMemory, proof: &mut Proof) 
     memory.reserve(sheet.net.degree, sheet.grid);
     memory.waiting.clear();
     let (degree, slot, start) = (sheet.grid.degree, sheet.grid.slot(), proof.spent);
-    Walk { sheet, memory, proof, degree, slot, start, tilts: (0, 0) }.run()
+    Walk { sheet, memory, proof, degree, slot, start, tilts: (0, 0), last: None }.run()
 }
 
 struct Walk<'a, 'b, 't> {
@@ -121,6 +122,8 @@ struct Walk<'a, 'b, 't> {
     start: u64,
     /// Tilted planes tried, and boxes closed by them.
     tilts: (u64, u64),
+    /// Where the last iteration ended.
+    last: Option<([f64; 2], Jet2)>,
 }
 
 enum Verdict {
@@ -328,9 +331,9 @@ impl Walk<'_, '_, '_> {
     /// the border of an area would be none) when it is nearer than the target: a target far too high makes `h` concave (by its term in C), and no test could ever close.
     fn probe(&mut self, area: &Area, place: usize) {
         let at = self.abscissa(area, place);
-        let jet = self.sheet.net.jet(at[0], at[1], self.sheet.query);
+        let d = self.sheet.net.vector(at[0], at[1], self.sheet.query);
         self.proof.evaluations += 1;
-        if self.proof.attracts(jet.d) {
+        if self.proof.attracts(d) {
             self.iterate(self.sheet.range, at);
         }
     }
@@ -360,6 +363,7 @@ impl Walk<'_, '_, '_> {
         if (0..4).any(inner) || taken >= LONG {
             self.proof.cut_off(Site { piece, at });
         }
+        self.last = Some((at, jet));
         (at, jet)
     }
 
@@ -385,6 +389,15 @@ impl Walk<'_, '_, '_> {
         let mu = self.proof.least_counted();
         let Some(mut m) = self.curvature(at, mu, allowance, slopes) else { return false };
         let start = self.start(area, place);
+        if let Some((_, jet)) = self.last.filter(|(at, _)| !tying && *at == start) {
+            // The best foot: the iteration that ended there need not be repeated to see that it is the least here.
+            if self.first_order(area, start, &jet, m) {
+                if !one_foot {
+                    self.proof.loosen(self.proof.target);
+                }
+                return true;
+            }
+        }
         let (found, jet) = self.iterate([area.s[0], area.s[1], area.t[0], area.t[1]], start);
         if tying {
             return true;
@@ -464,7 +477,10 @@ impl Walk<'_, '_, '_> {
         let net = &mut self.memory.net[..4 * count];
         let lanes = &mut self.memory.lanes[..count];
         let query = self.sheet.query;
-        let radius = patch.level.run(CutFree { patch, s: area.s, t: area.t, query, lanes, net });
+        let (degree, rational, poles) = (patch.degree, patch.rational, patch.lanes);
+        let (s, t) = (area.s, area.t);
+        let cut = CutFree { poles, degree, rational, s, t, query, lanes, net };
+        let radius = patch.level.run(cut);
         let known = self.proof.best.is_finite();
         if known && plane_separates(net, count, self.proof, self.sheet.position) {
             return None;

@@ -584,6 +584,7 @@ impl SurfaceSearch<'_> {
             range,
             border: [0, 1, 2, 3].map(|e| patch.border[e] || cut[e]),
             grid: &self.index.grid,
+            edge_grids: &self.index.edge_grids,
             method: self.options.method,
             patience,
         };

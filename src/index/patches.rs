@@ -74,6 +74,8 @@ pub struct SurfaceIndex {
     tensors: Vec<f64>,
     /// The coefficient arrays of its patches.
     pub grid: Grid,
+    /// Those of their edges along s and along t.
+    pub edge_grids: [Grid; 2],
 }
 
 /// One direction's spans with their extraction matrices.
@@ -115,6 +117,7 @@ impl SurfaceIndex {
         let (count, width) = (rows * columns, degree.count() * if rational { 4 } else { 3 });
         let tensor_width = tensor_len(degree, rational);
         let keep_tensors = count * tensor_width * 8 <= MAX_TENSOR_BYTES || tensor_width <= 1125;
+        let level = Level::detect();
         let mut index = Self {
             frame: Frame::new(surface.poles(), surface.bounding_box()),
             patches: reserved(count)?,
@@ -126,7 +129,9 @@ impl SurfaceIndex {
             collapsed: surface.collapsed_edges(),
             nets: reserved(count * width)?,
             lanes: reserved(count * degree.count())?,
-            grid: Grid::new(degree, rational, Level::detect()),
+            grid: Grid::new(degree, rational, level),
+            edge_grids: [degree.s, degree.t]
+                .map(|t| Grid::new(Bidegree { s: 0, t }, rational, level)),
             tensors: reserved(if keep_tensors { count * tensor_width } else { 0 })?,
         };
         let mut boxes = reserved(count)?;
@@ -287,6 +292,7 @@ impl SurfaceIndex {
             + self.patches.capacity() * size_of::<Patch>()
             + self.tree.memory()
             + self.grid.memory()
+            + self.edge_grids.iter().map(Grid::memory).sum::<usize>()
     }
 }
 

@@ -134,6 +134,9 @@ impl Span {
         if high <= self.ends[0] || low >= self.ends[1] {
             return [self.local(low); 2];
         }
+        if low <= self.ends[0] && high >= self.ends[1] {
+            return [0.0, 1.0];
+        }
         let margin = 8.0 * HALF_ULP;
         // The nearer end decides: below one half x itself is the sharper number, above it its rest.
         let moved = |[x, rest]: [f64; 2], outward: f64| {

@@ -85,56 +85,80 @@ pub fn foot_on_surface(
 ) -> ([f64; 2], Jet2, u32) {
     let mut state = State { at: start, range };
     state.at = state.moved([0.0; 2], 0.0);
-    let mut jet = surface.jet(state.at[0], state.at[1]);
+    let mut place = Place::new(surface.jet(state.at[0], state.at[1]));
     let mut taken = 1;
-    tell(&mut trace, surface, 0, state.at, &jet);
+    tell(&mut trace, surface, 0, state.at, &place);
     for count in 1..=method.steps() {
-        let held = state.held(jet.gradient());
-        let Some((step, second_order)) = bounded_step(&state, &jet, method) else { break };
+        let held = state.held(place.g);
+        let Some((step, second_order)) = bounded_step(&state, &place, method) else { break };
         let size = state.size(state.moved(step, 1.0));
         if size <= NO_STEP {
             break;
         }
         let last = second_order && size <= LAST_STEP;
-        let accept = |candidate: &Jet2| last || improved(candidate, &jet, held);
+        let accept = |candidate: &Place| last || improved(candidate, &place, held);
         let patience = if method == Method::Auto { 0.2 } else { 1e-4 };
         let mut found = advance(surface, &state, step, patience, &accept, &mut taken);
         if method == Method::Auto && held == [false; 2] {
             // A second-order model that is wrong so far out: damped falls on the tangent plane, ever shorter.
             for damping in DAMPING {
                 if found.is_none() {
-                    let step = damped_fall(&jet, damping);
+                    let step = damped_fall(&place, damping);
                     found = advance(surface, &state, step, 0.6, &accept, &mut taken);
                 }
             }
         }
         if found.is_none() && method == Method::Auto {
-            found = creep(surface, &state, &jet, step, &accept, &mut taken);
+            // Where the sides of the box cut a step off, what is left of it may point anywhere: one by one, then.
+            let alone = [0, 1].map(|k| single(&place.jet, k, method).0);
+            for step in [step, alone[0], alone[1]] {
+                if found.is_none() {
+                    found = creep(surface, &state, &place, step, &accept, &mut taken);
+                }
+            }
         }
         let Some((next, candidate)) = found else { break };
-        (state.at, jet) = (next, candidate);
-        tell(&mut trace, surface, count, state.at, &jet);
+        (state.at, place) = (next, candidate);
+        tell(&mut trace, surface, count, state.at, &place);
         // A step with other parameters held than those that are held now proves nothing about the next one.
-        if last && state.held(jet.gradient()) == held {
+        if last && state.held(place.g) == held {
             break;
         }
     }
-    (state.at, jet, taken)
+    (state.at, place.jet, taken)
+}
+
+/// A jet with the products that every step needs, formed once.
+struct Place {
+    jet: Jet2,
+    squared: f64,
+    g: [f64; 2],
+    metric: [f64; 3],
+    hessian: [f64; 3],
+}
+
+impl Place {
+    fn new(jet: Jet2) -> Self {
+        let (squared, g, metric) = (jet.squared(), jet.gradient(), jet.metric());
+        let [e, f, h] = metric;
+        let hessian = [e + dot(jet.d, jet.ss), f + dot(jet.d, jet.st), h + dot(jet.d, jet.tt)];
+        Self { jet, squared, g, metric, hessian }
+    }
 }
 
 /// A much shorter step, where the gradient promises something: models fail where derivatives nearly vanish.
 fn creep(
     surface: &impl SurfaceJets,
     state: &State,
-    jet: &Jet2,
+    place: &Place,
     step: [f64; 2],
-    accept: &impl Fn(&Jet2) -> bool,
+    accept: &impl Fn(&Place) -> bool,
     taken: &mut u32,
-) -> Option<([f64; 2], Jet2)> {
-    let (g, to) = (jet.gradient(), state.moved(step, 1.0));
+) -> Option<([f64; 2], Place)> {
+    let (g, to) = (place.g, state.moved(step, 1.0));
     let way = [to[0] - state.at[0], to[1] - state.at[1]];
     let promise = -(g[0] * way[0] + g[1] * way[1]);
-    if promise > LEAST_PROMISE * jet.squared() {
+    if promise > LEAST_PROMISE * place.squared {
         advance(surface, state, way.map(|x| 0.125 * x), 1e-4, accept, taken)
     } else {
         None
@@ -147,13 +171,13 @@ fn advance(
     state: &State,
     step: [f64; 2],
     least: f64,
-    accept: &impl Fn(&Jet2) -> bool,
+    accept: &impl Fn(&Place) -> bool,
     taken: &mut u32,
-) -> Option<([f64; 2], Jet2)> {
+) -> Option<([f64; 2], Place)> {
     let mut share = 1.0;
     while share > least {
         let next = state.moved(step, share);
-        let candidate = surface.jet(next[0], next[1]);
+        let candidate = Place::new(surface.jet(next[0], next[1]));
         *taken += 1;
         if accept(&candidate) {
             return Some((next, candidate));
@@ -164,13 +188,13 @@ fn advance(
 }
 
 /// Nearer, or as near as rounding can tell and with a smaller gradient in the parameters that are free.
-fn improved(new: &Jet2, old: &Jet2, held: [bool; 2]) -> bool {
-    let (a, b) = (new.squared(), old.squared());
+fn improved(new: &Place, old: &Place, held: [bool; 2]) -> bool {
+    let (a, b) = (new.squared, old.squared);
     if a < b - 1e-13 * b {
         return true;
     }
-    let steepness = |jet: &Jet2| {
-        let ([x, y], [e, _, g]) = (jet.gradient(), jet.metric());
+    let steepness = |place: &Place| {
+        let ([x, y], [e, _, g]) = (place.g, place.metric);
         let share =
             |held: bool, x: f64, size: f64| if held { 0.0 } else { x * x / (size + 1e-300) };
         share(held[0], x, e) + share(held[1], y, g)
@@ -183,11 +207,11 @@ fn tell(
     surface: &impl SurfaceJets,
     step: u32,
     at: [f64; 2],
-    jet: &Jet2,
+    place: &Place,
 ) {
     if let Some(trace) = trace {
         let [u, v] = surface.global(at[0], at[1]);
-        trace(step, u, v, jet.squared().sqrt() / surface.scale());
+        trace(step, u, v, place.squared.sqrt() / surface.scale());
     }
 }
 
@@ -195,8 +219,8 @@ fn tell(
 ///
 /// A parameter at its border may be free by its gradient and still be pushed outward by a coupled step; it is
 /// then held for this step, and if the other one does not want to move either, it takes its own step.
-fn bounded_step(state: &State, jet: &Jet2, method: Method) -> Option<([f64; 2], bool)> {
-    let g = jet.gradient();
+fn bounded_step(state: &State, place: &Place, method: Method) -> Option<([f64; 2], bool)> {
+    let (g, jet) = (place.g, &place.jet);
     let held = state.held(g);
     match held {
         [true, true] => return None,
@@ -204,7 +228,7 @@ fn bounded_step(state: &State, jet: &Jet2, method: Method) -> Option<([f64; 2], 
         [false, true] => return Some(single(jet, 0, method)),
         [false, false] => {}
     }
-    let (step, second_order) = free_step(jet, method);
+    let (step, second_order) = free_step(place, method);
     for k in 0..2 {
         let outward = (state.at[k] <= state.low(k) && step[k] < 0.0)
             || (state.at[k] >= state.high(k) && step[k] > 0.0);
@@ -237,24 +261,24 @@ fn single(jet: &Jet2, k: usize, method: Method) -> ([f64; 2], bool) {
 }
 
 /// The step of a method with both parameters free, and whether it is of second order here.
-fn free_step(jet: &Jet2, method: Method) -> ([f64; 2], bool) {
-    let g = jet.gradient();
-    let [a, b, c] = jet.hessian();
+fn free_step(place: &Place, method: Method) -> ([f64; 2], bool) {
+    let (g, jet) = (place.g, &place.jet);
+    let [a, b, c] = place.hessian;
     let newton = a > 0.0 && c > 0.0 && a * c - b * b > 1e-14 * a * c;
     let step = solved([a, b, c], g);
     match method {
-        Method::Auto if newton && is_plausible(jet, step) => (step, true),
+        Method::Auto if newton && is_plausible(place, step) => (step, true),
         Method::Newton if newton => (step, true),
-        Method::Maf | Method::Newton => (fall(jet, g), jet.squared() < 1e-14 * (a + c)),
+        Method::Maf | Method::Newton => (fall(jet, g), place.squared < 1e-14 * (a + c)),
         Method::Auto | Method::Osculating => (osculating(jet, g), newton),
     }
 }
 
 /// Whether a step moves the point by a few distances at most: on a plane the foot is one distance away at most, so
 /// a longer step comes from a Hessian that is nearly singular.
-fn is_plausible(jet: &Jet2, [x, y]: [f64; 2]) -> bool {
-    let [e, f, g] = jet.metric();
-    e * x * x + 2.0 * f * x * y + g * y * y <= 64.0 * jet.squared()
+fn is_plausible(place: &Place, [x, y]: [f64; 2]) -> bool {
+    let [e, f, g] = place.metric;
+    e * x * x + 2.0 * f * x * y + g * y * y <= 64.0 * place.squared
 }
 
 /// `-M^-1 g` for a symmetric positive definite 2 x 2 matrix.
@@ -265,8 +289,8 @@ fn solved([a, b, c]: [f64; 3], g: [f64; 2]) -> [f64; 2] {
 
 /// The fall on the tangent plane with the metric's diagonal enlarged: Levenberg's and Marquardt's step, which bends
 /// towards the steepest descent in a valley.
-fn damped_fall(jet: &Jet2, damping: f64) -> [f64; 2] {
-    let ([e, f, h], g) = (jet.metric(), jet.gradient());
+fn damped_fall(place: &Place, damping: f64) -> [f64; 2] {
+    let ([e, f, h], g) = (place.metric, place.g);
     let step = solved([e * (1.0 + damping), f, h * (1.0 + damping)], g);
     if step.iter().all(|x| x.is_finite()) { step } else { [0.0; 2] }
 }

@@ -1,7 +1,7 @@
 //! The sides of an area: a search along a border, and what a collapsed side says.
 
 use super::super::collapsed::{along, rational_slope_extent, slope_extent};
-use super::super::line::{Given, Line, search_line};
+use super::super::line::{Given, Line, Source, search_line};
 use super::super::proof::Site;
 use super::{Area, Walk};
 use crate::bezier::{cut_2d, isocurve};
@@ -80,11 +80,13 @@ impl Walk<'_, '_, '_> {
             range,
             border,
             site: &site,
+            grid: &self.sheet.edge_grids[usize::from(!along_s)],
             method: self.sheet.method,
         };
         let c = if rational { &c[..] } else { &[] };
-        let given = Given { n, c, error: area.error, radius: area.radius };
-        search_line(&line, Some(given), &mut self.memory.line, self.proof);
+        let source = Source::Products(n, c);
+        let given = Given { source, error: area.error, radius: area.radius };
+        search_line(&line, &given, &mut self.memory.line, self.proof);
         self.memory.edge = memory;
     }
 

@@ -1,18 +1,28 @@
-//! The net of an area: cut out of the patch, seen from the query.
+//! The net of a box: cut out of a piece, seen from the query.
 
 use crate::bezier::Bidegree;
 use crate::bounds::{HALF_ULP, Vector};
-use crate::jet::{BezierPatch, Lane};
+use crate::jet::Lane;
 use crate::simd::{Kernel, Lanes, Simd};
 
-/// Cuts the patch to an area, into `lanes` as `r = X - W q` and `W`, and into `net` the same component by component.
+/// Cuts a piece to a box, into `lanes` as `r = X - W q` and `W`, and into `net` the same component by component.
 /// Returns the greatest `|r| / W`. Rounding as of [`crate::bezier::cut`].
 pub struct CutFree<'a> {
-    pub patch: &'a BezierPatch<'a>,
+    /// Poles of the piece.
+    pub poles: &'a [Lane],
+    /// Its degrees; a segment has degree 0 in s.
+    pub degree: Bidegree,
+    /// Whether its weights count.
+    pub rational: bool,
+    /// The box.
     pub s: [f64; 2],
+    /// See `s`.
     pub t: [f64; 2],
+    /// The query in the coordinates of the piece.
     pub query: Vector,
+    /// As many as poles.
     pub lanes: &'a mut [Lane],
+    /// Four times as many.
     pub net: &'a mut [f64],
 }
 
@@ -53,10 +63,10 @@ impl Kernel for CutFree<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, _: S) -> f64 {
-        let Self { patch, s, t, query, lanes, net } = self;
-        let Bidegree { s: p, t: q } = patch.degree;
+        let Self { poles, degree, rational, s, t, query, lanes, net } = self;
+        let Bidegree { s: p, t: q } = degree;
         let (width, count) = (q + 1, lanes.len());
-        lanes.copy_from_slice(patch.lanes);
+        lanes.copy_from_slice(poles);
         cut::<S>(lanes, p, width, s);
         for row in lanes.chunks_exact_mut(width) {
             cut::<S>(row, q, 1, t);
@@ -65,13 +75,13 @@ impl Kernel for CutFree<'_> {
         let mut greatest: f64 = 0.0;
         for (k, lane) in lanes.iter_mut().enumerate() {
             // Cutting ones rounds; the weights of a polynomial are exact.
-            let w = if patch.rational { lane[3] } else { 1.0 };
+            let w = if rational { lane[3] } else { 1.0 };
             let [x, y, z, _] = (S::F4::load(lane) - S::F4::splat(w) * query).array();
             *lane = [x, y, z, w];
             (net[k], net[count + k]) = (x, y);
             (net[2 * count + k], net[3 * count + k]) = (z, w);
             let squared = x * x + y * y + z * z;
-            let ratio = if patch.rational { squared / (w * w) } else { squared };
+            let ratio = if rational { squared / (w * w) } else { squared };
             greatest = if ratio > greatest { ratio } else { greatest };
         }
         greatest.sqrt() * (1.0 + 8.0 * HALF_ULP)
