@@ -8,7 +8,7 @@ const HEADER: &str = "include/footpoint.h";
 /// Setting this variable writes the header instead of comparing it.
 const WRITE: &str = "FOOTPOINT_WRITE_HEADER";
 /// The files that hold the C API, in the order in which the header has them.
-const SOURCES: [&str; 11] = [
+const SOURCES: [&str; 14] = [
     "src/ffi.rs",
     "src/ffi/records.rs",
     "src/ffi/options.rs",
@@ -16,10 +16,13 @@ const SOURCES: [&str; 11] = [
     "src/ffi/surface.rs",
     "src/ffi/callback.rs",
     "src/ffi/query.rs",
+    "src/ffi/floats.rs",
     "src/ffi/sets.rs",
     "src/ffi/lines.rs",
     "src/ffi/normals.rs",
     "src/ffi/path.rs",
+    "src/ffi/scene.rs",
+    "src/ffi/scene_query.rs",
 ];
 
 fn main() {

@@ -292,6 +292,40 @@ void normals_and_paths_are_those_of_the_c_api() {
     check_thrown([&] { shape.normals({1, 2, 3}, feet); }, FPT_INVALID_ARGUMENT, "points");
 }
 
+void scenes_are_those_of_the_c_api() {
+    const footpoint::placement aside{1, 0, 0, 700, 0, 1, 0, 0, 0, 0, 1, 0};
+    std::vector<fpt_scene_member> members;
+    footpoint::scene scene(static_cast<fpt_scene *>(nullptr));
+    {
+        const surface shape = paper();
+        const curve round = circle();
+        members = {footpoint::scene::member(shape), footpoint::scene::member(shape, aside),
+                   footpoint::scene::member(round, aside)};
+        scene = footpoint::scene(members);
+    }
+    scene.prepare();
+    CHECK(scene.size() == 3 && scene.memory() > 10000 && scene.box()[3] > 1000);
+    CHECK(scene.placement_of(1) == aside && scene.shape_of(0).second.degree_u() == 3);
+    CHECK(scene.shape_of(2).first.get() != nullptr && scene.shape_of(2).second.get() == nullptr);
+    const std::vector<double> points{300, 250, 90, 1000, 250, 90, 701, 5, 0};
+    const footpoint::scene_feet found = scene.closest(points);
+    CHECK(found.members == std::vector<std::uint32_t>({0, 1, 2}));
+    CHECK_NEAR(found.feet[0].distance, found.feet[1].distance, 1e-9);
+    CHECK(scene.evaluate(1, found.feet[1].u, found.feet[1].v)[0] == found.feet[1].point[0]);
+    const footpoint::scene_feet single = scene.closest_f32({points.begin(), points.end()});
+    for (std::size_t i = 0; i < 3; i++) CHECK(same(found.feet[i], single.feet[i]));
+    const std::vector<float> near{300, 250, 90};
+    CHECK(same(scene.shape_of(0).second.closest_f32(near)[0], scene.shape_of(0).second.closest({300, 250, 90})[0]));
+    CHECK(same(circle().invert_f32(near)[0], circle().invert({300, 250, 90})[0]));
+    const footpoint::scene_feet hinted = scene.invert(points, footpoint::query_options(), found.members);
+    CHECK(hinted.feet[2].flags & FPT_FOOT_HINT_USED && hinted.feet[2].flags & FPT_FOOT_NOT_ON_SHAPE);
+    const footpoint::directions normals = scene.normals(points, found);
+    CHECK(std::isnan(normals.vectors[6]) && std::fabs(normals.signed_distances[1]) == found.feet[1].distance);
+    CHECK(scene.invert_f32({300, 250, 90}).members[0] == 0);
+    check_thrown([&] { scene.closest(points, footpoint::query_options(), {0}); }, FPT_INVALID_ARGUMENT, "hint_members");
+    check_thrown([&] { footpoint::scene empty(std::vector<fpt_scene_member>{}); }, FPT_INVALID_ARGUMENT, "members");
+}
+
 void versions_agree() {
     CHECK(footpoint::version() == FPT_VERSION && footpoint::abi_version() == FPT_ABI_VERSION);
 }
@@ -310,6 +344,7 @@ int main() {
     RUN(sets_are_those_of_the_c_api);
     RUN(an_incomplete_set_is_a_set_and_other_failures_are_thrown);
     RUN(normals_and_paths_are_those_of_the_c_api);
+    RUN(scenes_are_those_of_the_c_api);
     RUN(versions_agree);
     return check_report("wrapper");
 }

@@ -299,6 +299,13 @@ typedef struct fpt_curve fpt_curve;
 typedef struct fpt_foot_set fpt_foot_set;
 
 /**
+ * Many curves and surfaces that are searched together. Immutable, as they are: any number of threads may use one at a time.
+ * Made by fpt_scene_new, owned by the caller, released by fpt_scene_free. It shares the shapes of the handles it was
+ * made from: these may be freed before or after it.
+ */
+typedef struct fpt_scene fpt_scene;
+
+/**
  * A surface. Immutable: any number of threads may use one at a time. The search index is built on first
  * use, by one thread while the others wait. Made by fpt_surface_new or fpt_surface_from_callback, owned by
  * the caller, released by fpt_surface_free. A surface from a callback has no degrees, knots, poles and
@@ -346,7 +353,8 @@ typedef struct fpt_query_options {
      */
     const double *hints;
     /**
-     * Bytes from one query point to the next: 0 (packed: 24) or a multiple of 8, at least 24.
+     * Bytes from one query point to the next: 0 (packed: 24) or a multiple of 8, at least 24. For points in floats
+     * (the functions that end in _f32): 0 (packed: 12) or a multiple of 4, at least 12.
      */
     size_t point_stride;
     /**
@@ -672,6 +680,50 @@ typedef struct fpt_foot_member {
     uint32_t nature;
 } fpt_foot_member;
 
+/**
+ * A member of a scene: a curve or a surface, and where it stands. Several members may have the same handle and different
+ * placements; its search index is built once.
+ */
+typedef struct fpt_scene_member {
+    /**
+     * sizeof(fpt_scene_member), the same for all members of an array.
+     */
+    size_t struct_size;
+    /**
+     * A curve, or NULL. One from a callback is FPT_UNSUPPORTED.
+     */
+    const struct fpt_curve *curve;
+    /**
+     * A surface, or NULL; exactly one of both is given. One from a callback is FPT_UNSUPPORTED.
+     */
+    const struct fpt_surface *surface;
+    /**
+     * 12 numbers, three rows of rotation and translation: a point x of the shape stands at y with
+     * y[i] = placement[4*i]*x[0] + placement[4*i + 1]*x[1] + placement[4*i + 2]*x[2] + placement[4*i + 3].
+     * No entry of R^T R may differ from the identity by more than 1e-9, and the determinant is positive; the nearest
+     * rotation is taken (one that is orthogonal up to rounding keeps its bits). NULL: the shape stands where it is.
+     */
+    const double *placement;
+} fpt_scene_member;
+
+/**
+ * The input of fpt_scene_new. Copied: nothing is borrowed after the call.
+ */
+typedef struct fpt_scene_data {
+    /**
+     * sizeof(fpt_scene_data).
+     */
+    size_t struct_size;
+    /**
+     * 1 to 2^31 - 1.
+     */
+    size_t member_count;
+    /**
+     * The members, struct_size bytes of the first apart.
+     */
+    const struct fpt_scene_member *members;
+} fpt_scene_data;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -855,6 +907,15 @@ FPT_MUST_USE fpt_status fpt_curve_is_closed(const struct fpt_curve *curve, int32
  */
 FPT_MUST_USE
 fpt_status fpt_curve_prepare(const struct fpt_curve *curve);
+
+/**
+ * Bytes that the library holds for the curve: the copies of its inputs, and the search index once it is built. What the
+ * function of a callback keeps for itself is not counted.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_memory(const struct fpt_curve *curve,
+                            size_t *out_memory);
 
 /**
  * Makes a surface from its inputs.
@@ -1063,6 +1124,15 @@ FPT_MUST_USE
 fpt_status fpt_surface_prepare(const struct fpt_surface *surface);
 
 /**
+ * Bytes that the library holds for the surface: the copies of its inputs, and the search index once it is built. What the
+ * function of a callback keeps for itself is not counted.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_memory(const struct fpt_surface *surface,
+                              size_t *out_memory);
+
+/**
  * Makes a curve from a function. It is used like any other curve; functions that need degree, knots, poles
  * or weights return FPT_UNSUPPORTED. A query looks at 20,000 boxes of parameters by default when a bound is
  * given (a preimage at 100,000), at 2,000 when there is none; finite differences use steps of 2^-17 of the domain for first
@@ -1169,6 +1239,82 @@ fpt_status fpt_surface_invert(const struct fpt_surface *surface,
                               size_t count,
                               const struct fpt_query_options *options,
                               struct fpt_foot_point *out);
+
+/**
+ * As fpt_curve_closest, for query points in single precision. The answers are those of the same numbers in double
+ * precision, bit for bit.
+ *
+ * @param points   `count` query points x,y,z, options->point_stride bytes apart, without alignment. A bad point (NaN,
+ *                 infinite) marks its own record with FPT_FOOT_BAD_QUERY
+ * @param count    may be 0, then `points` and `out` may be NULL
+ * @param options  NULL: the defaults; hints are doubles
+ * @param out      `count` records, packed; must not overlap `points` or the hints
+ * @return as fpt_curve_closest
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_closest_f32(const struct fpt_curve *curve,
+                                 const float *points,
+                                 size_t count,
+                                 const struct fpt_query_options *options,
+                                 struct fpt_foot_point *out);
+
+/**
+ * As fpt_curve_invert, for query points in single precision. A float is off by up to 6e-8 of its coordinates: the
+ * tolerance has to allow for that.
+ *
+ * @param points   `count` query points x,y,z, options->point_stride bytes apart, without alignment. A bad point (NaN,
+ *                 infinite) marks its own record with FPT_FOOT_BAD_QUERY
+ * @param count    may be 0, then `points` and `out` may be NULL
+ * @param options  NULL: the defaults; hints are doubles
+ * @param out      `count` records, packed; must not overlap `points` or the hints
+ * @return as fpt_curve_invert
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_invert_f32(const struct fpt_curve *curve,
+                                const float *points,
+                                size_t count,
+                                const struct fpt_query_options *options,
+                                struct fpt_foot_point *out);
+
+/**
+ * As fpt_surface_closest, for query points in single precision. The answers are those of the same numbers in double
+ * precision, bit for bit.
+ *
+ * @param points   `count` query points x,y,z, options->point_stride bytes apart, without alignment. A bad point (NaN,
+ *                 infinite) marks its own record with FPT_FOOT_BAD_QUERY
+ * @param count    may be 0, then `points` and `out` may be NULL
+ * @param options  NULL: the defaults; hints are doubles
+ * @param out      `count` records, packed; must not overlap `points` or the hints
+ * @return as fpt_surface_closest
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_closest_f32(const struct fpt_surface *surface,
+                                   const float *points,
+                                   size_t count,
+                                   const struct fpt_query_options *options,
+                                   struct fpt_foot_point *out);
+
+/**
+ * As fpt_surface_invert, for query points in single precision. A float is off by up to 6e-8 of its coordinates: the
+ * tolerance has to allow for that.
+ *
+ * @param points   `count` query points x,y,z, options->point_stride bytes apart, without alignment. A bad point (NaN,
+ *                 infinite) marks its own record with FPT_FOOT_BAD_QUERY
+ * @param count    may be 0, then `points` and `out` may be NULL
+ * @param options  NULL: the defaults; hints are doubles
+ * @param out      `count` records, packed; must not overlap `points` or the hints
+ * @return as fpt_surface_invert
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_invert_f32(const struct fpt_surface *surface,
+                                  const float *points,
+                                  size_t count,
+                                  const struct fpt_query_options *options,
+                                  struct fpt_foot_point *out);
 
 /**
  * Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.
@@ -1602,6 +1748,229 @@ fpt_status fpt_surface_path(const struct fpt_surface *surface,
                             struct fpt_foot_point *out,
                             double *out_unwrapped,
                             uint32_t *out_changes);
+
+/**
+ * Makes a scene of its members, which are numbered from 0 as they come.
+ *
+ * @param data  the members; a struct_size shorter than the struct is FPT_INVALID_ARGUMENT
+ * @param out   the handle; release it with fpt_scene_free
+ * @return FPT_INVALID_ARGUMENT names the first bad member ("members: member 17: placement[3] is not finite"),
+ *         FPT_UNSUPPORTED a member that is given by a callback
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_scene_new(const struct fpt_scene_data *data,
+                         struct fpt_scene **out);
+
+/**
+ * Releases a scene, not the handles that it was made from. NULL is fine. No other call may use the handle during or after
+ * this one.
+ * @since 0.1
+ */
+void fpt_scene_free(struct fpt_scene *scene);
+
+/**
+ * The number of members.
+ * @since 0.1
+ */
+FPT_MUST_USE fpt_status fpt_scene_count(const struct fpt_scene *scene, size_t *out_count);
+
+/**
+ * A member's shape as a new handle that shares everything with it: one of both outputs is the handle, to be released by its
+ * _free, the other is NULL.
+ *
+ * @param member       less than the count
+ * @param out_curve    the curve, or NULL for a surface
+ * @param out_surface  the surface, or NULL for a curve
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_scene_shape(const struct fpt_scene *scene,
+                           uint32_t member,
+                           struct fpt_curve **out_curve,
+                           struct fpt_surface **out_surface);
+
+/**
+ * Where a member stands, as it is used: the nearest rotation to the one that was given.
+ *
+ * @param member         less than the count
+ * @param out_placement  12 numbers, as fpt_scene_member.placement
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_scene_placement(const struct fpt_scene *scene,
+                               uint32_t member,
+                               double *out_placement);
+
+/**
+ * The box in which all members lie. Its diagonal is what the default tolerance and accuracy are relative to.
+ *
+ * @param out_box  6 numbers: least x,y,z, then greatest x,y,z
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_scene_box(const struct fpt_scene *scene,
+                         double *out_box);
+
+/**
+ * Bytes that the library holds for the scene: members, tree, and the shapes with what is built of their search indexes, each
+ * shape once, whether or not other handles share it.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_scene_memory(const struct fpt_scene *scene,
+                            size_t *out_memory);
+
+/**
+ * Builds the search indexes of all members now, on all cores, instead of on the first query. May be called again and from
+ * any thread.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_scene_prepare(const struct fpt_scene *scene);
+
+/**
+ * A member's point and derivatives where it stands. The point has the bits that a foot's `point` has there: the shape's
+ * point x by fpt_curve_evaluate or fpt_surface_evaluate, then per coordinate
+ * ((r0*x[0] + r1*x[1]) + r2*x[2]) + t, each operation rounded, with the numbers of fpt_scene_placement; without a
+ * placement the shape's point itself.
+ *
+ * @param member       less than the count
+ * @param u            in the member's domain, else FPT_INVALID_ARGUMENT
+ * @param v            in the member's domain, else FPT_INVALID_ARGUMENT; on a curve it is not looked at
+ * @param derivatives  highest (total) order d, at most 31; 0: the point only
+ * @param out          of a curve 3*(d + 1) numbers as fpt_curve_evaluate, of a surface 3*(d + 1)*(d + 2)/2 as
+ *                     fpt_surface_evaluate
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_scene_evaluate(const struct fpt_scene *scene,
+                              uint32_t member,
+                              double u,
+                              double v,
+                              uint32_t derivatives,
+                              double *out);
+
+/**
+ * The nearest point of all members of the scene for each query point, with a proven lower bound of the distance: as
+ * fpt_surface_closest, for all members at once.
+ *
+ * The records' `u` and `v` are parameters of the member that is named beside them; `point` is where it stands (see
+ * fpt_scene_evaluate); `lower_bound` holds for every member. Of members at the same distance the lowest number is named. A
+ * foot of another member within the accuracy sets FPT_FOOT_TIE when it is another point in space; where members
+ * meet, or lie upon each other, their common point is one foot. The bound allows for the rounding of the placements.
+ * options->budget is that of each member that a query comes to. FPT_SCOPE_LOCAL iterates on the hint's member only,
+ * without a hint on one whose box is nearest.
+ *
+ * @param points       `count` query points x,y,z, options->point_stride bytes apart. A bad point (NaN, infinite, beyond
+ *                     1e100) marks its own record with FPT_FOOT_BAD_QUERY
+ * @param count        may be 0, then all arrays may be NULL
+ * @param options      NULL: the defaults, relative to the diagonal of the scene's box. `domain` must be all 0 and `trace`
+ *                     NULL: FPT_UNSUPPORTED. `hints` hold (u,v) of the hinted member, on a curve v is not looked at
+ * @param hint_members the member to begin with, per query; UINT32_MAX: no hint for this query. With options->hints the
+ *                     search begins there, where they are NULL or NaN with the member alone. Any other number
+ *                     that is not a member's is FPT_INVALID_ARGUMENT. NULL: no hints, then options->hints must be NULL too
+ * @param out          `count` records, packed; must not overlap `points` or the hints
+ * @param out_members  `count` members' numbers, UINT32_MAX where there is no foot; NULL: not wanted
+ * @return as fpt_surface_closest
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_scene_closest(const struct fpt_scene *scene,
+                             const double *points,
+                             size_t count,
+                             const struct fpt_query_options *options,
+                             const uint32_t *hint_members,
+                             struct fpt_foot_point *out,
+                             uint32_t *out_members);
+
+/**
+ * The members and parameters of points that lie in the scene: as fpt_scene_closest, and points proven to be farther from
+ * every member than options->tolerance are marked with FPT_FOOT_NOT_ON_SHAPE.
+ *
+ * @param points       as for fpt_scene_closest
+ * @param count        as for fpt_scene_closest
+ * @param options      as for fpt_scene_closest
+ * @param hint_members as for fpt_scene_closest
+ * @param out          as for fpt_scene_closest
+ * @param out_members  as for fpt_scene_closest
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_scene_invert(const struct fpt_scene *scene,
+                            const double *points,
+                            size_t count,
+                            const struct fpt_query_options *options,
+                            const uint32_t *hint_members,
+                            struct fpt_foot_point *out,
+                            uint32_t *out_members);
+
+/**
+ * As fpt_scene_closest, for query points in single precision; see fpt_surface_closest_f32.
+ *
+ * @param points       `count` query points x,y,z, options->point_stride bytes apart, without alignment
+ * @param count        as for fpt_scene_closest
+ * @param options      as for fpt_scene_closest; hints are doubles
+ * @param hint_members as for fpt_scene_closest
+ * @param out          as for fpt_scene_closest
+ * @param out_members  as for fpt_scene_closest
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_scene_closest_f32(const struct fpt_scene *scene,
+                                 const float *points,
+                                 size_t count,
+                                 const struct fpt_query_options *options,
+                                 const uint32_t *hint_members,
+                                 struct fpt_foot_point *out,
+                                 uint32_t *out_members);
+
+/**
+ * As fpt_scene_invert, for query points in single precision; see fpt_surface_invert_f32.
+ *
+ * @param points       `count` query points x,y,z, options->point_stride bytes apart, without alignment
+ * @param count        as for fpt_scene_closest
+ * @param options      as for fpt_scene_closest; hints are doubles
+ * @param hint_members as for fpt_scene_closest
+ * @param out          as for fpt_scene_closest
+ * @param out_members  as for fpt_scene_closest
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_scene_invert_f32(const struct fpt_scene *scene,
+                                const float *points,
+                                size_t count,
+                                const struct fpt_query_options *options,
+                                const uint32_t *hint_members,
+                                struct fpt_foot_point *out,
+                                uint32_t *out_members);
+
+/**
+ * The unit normal of the member at each foot, turned with it, and on which side of it the query lies: as
+ * fpt_surface_normals. Feet on curves and feet without a member have no normal (FPT_NORMAL_UNDEFINED).
+ *
+ * The side is that of the one member: where the members together bound a solid, feet on their common edges and corners
+ * tell the side of one face only.
+ *
+ * @param points      x,y,z of the query of each foot, packed; NULL: normals only, then `out_signed` must be NULL
+ * @param feet        `count` records, as fpt_scene_closest gives them. Parameters outside the member's domain are
+ *                    FPT_INVALID_ARGUMENT; NaN parameters have no normal
+ * @param members     `count` numbers beside them; UINT32_MAX: no member
+ * @param count       may be 0
+ * @param out_normals 3*count numbers; NaN where there is no normal
+ * @param out_signed  `count` numbers or NULL, as for fpt_surface_normals
+ * @param out_flags   `count` numbers or NULL: sums of fpt_normal_flag values
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_scene_normals(const struct fpt_scene *scene,
+                             const double *points,
+                             const struct fpt_foot_point *feet,
+                             const uint32_t *members,
+                             size_t count,
+                             double *out_normals,
+                             double *out_signed,
+                             uint32_t *out_flags);
 
 #ifdef __cplusplus
 }  // extern "C"

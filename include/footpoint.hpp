@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: MIT OR Apache-2.0
  *
  * Every rule of footpoint.h holds here too: units, threads, lengths and order of the numbers. What differs:
- *   - a curve and a surface are released by their destructor; they move and do not copy;
+ *   - a curve, a surface and a scene are released by their destructor; they move and do not copy;
  *   - a status that is not FPT_OK is thrown as footpoint::error, with the text of fpt_last_error();
  *   - array arguments are vectors of doubles whose lengths are checked before the call;
  *   - FPT_BUDGET_EXHAUSTED is not thrown: the set that comes says so with is_complete().
@@ -218,9 +218,10 @@ inline const double *weights(const std::vector<double> &weights, std::size_t pol
 }
 
 /** Query points in a vector that is packed or has the stride of the options. */
-inline std::size_t point_count(const std::vector<double> &points, const fpt_query_options &options) {
-    const std::size_t stride = options.point_stride == 0 ? 3 * sizeof(double) : options.point_stride;
-    const std::size_t bytes = points.size() * sizeof(double);
+template <class Number>
+std::size_t point_count(const std::vector<Number> &points, const fpt_query_options &options) {
+    const std::size_t stride = options.point_stride == 0 ? 3 * sizeof(Number) : options.point_stride;
+    const std::size_t bytes = points.size() * sizeof(Number);
     require(bytes % stride == 0, "points: the length is not a multiple of the stride of one point");
     return bytes / stride;
 }
@@ -247,12 +248,12 @@ std::vector<double> vector(fpt_status (*get)(const Shape *, std::size_t, double 
     return out;
 }
 
-template <class Shape>
-using query = fpt_status (*)(const Shape *, const double *, std::size_t, const fpt_query_options *,
+template <class Shape, class Number>
+using query = fpt_status (*)(const Shape *, const Number *, std::size_t, const fpt_query_options *,
                              fpt_foot_point *);
 
-template <class Shape>
-std::vector<fpt_foot_point> feet(query<Shape> ask, const Shape *shape, const std::vector<double> &points,
+template <class Shape, class Number>
+std::vector<fpt_foot_point> feet(query<Shape, Number> ask, const Shape *shape, const std::vector<Number> &points,
                                  const fpt_query_options &options) {
     std::vector<fpt_foot_point> out(point_count(points, options));
     check(ask(shape, points.data(), out.size(), &options, out.data()));
@@ -374,11 +375,18 @@ public:
 
     /** Builds the search index now. */
     void prepare() const { check(fpt_curve_prepare(get())); }
+    /** Bytes held, as fpt_curve_memory. */
+    std::size_t memory() const { return detail::value(fpt_curve_memory, get()); }
 
     /** One record per query point, x,y,z each. */
     std::vector<fpt_foot_point> closest(const std::vector<double> &points,
                                         const fpt_query_options &options = query_options()) const {
-        return detail::feet<fpt_curve>(fpt_curve_closest, get(), points, options);
+        return detail::feet(fpt_curve_closest, get(), points, options);
+    }
+    /** The same for points in single precision. */
+    std::vector<fpt_foot_point> closest_f32(const std::vector<float> &points,
+                                            const fpt_query_options &options = query_options()) const {
+        return detail::feet(fpt_curve_closest_f32, get(), points, options);
     }
     /** As fpt_curve_closest: the records stay with the caller, also when FPT_CANCELLED is thrown. */
     void closest(const double *points, std::size_t count, const fpt_query_options *options,
@@ -388,7 +396,12 @@ public:
     /** One record per query point, x,y,z each. */
     std::vector<fpt_foot_point> invert(const std::vector<double> &points,
                                        const fpt_query_options &options = query_options()) const {
-        return detail::feet<fpt_curve>(fpt_curve_invert, get(), points, options);
+        return detail::feet(fpt_curve_invert, get(), points, options);
+    }
+    /** The same for points in single precision. */
+    std::vector<fpt_foot_point> invert_f32(const std::vector<float> &points,
+                                           const fpt_query_options &options = query_options()) const {
+        return detail::feet(fpt_curve_invert_f32, get(), points, options);
     }
     /** As fpt_curve_invert: the records stay with the caller, also when FPT_CANCELLED is thrown. */
     void invert(const double *points, std::size_t count, const fpt_query_options *options,
@@ -577,11 +590,18 @@ public:
 
     /** Builds the search index now. */
     void prepare() const { check(fpt_surface_prepare(get())); }
+    /** Bytes held, as fpt_surface_memory. */
+    std::size_t memory() const { return detail::value(fpt_surface_memory, get()); }
 
     /** One record per query point, x,y,z each. */
     std::vector<fpt_foot_point> closest(const std::vector<double> &points,
                                         const fpt_query_options &options = query_options()) const {
-        return detail::feet<fpt_surface>(fpt_surface_closest, get(), points, options);
+        return detail::feet(fpt_surface_closest, get(), points, options);
+    }
+    /** The same for points in single precision. */
+    std::vector<fpt_foot_point> closest_f32(const std::vector<float> &points,
+                                            const fpt_query_options &options = query_options()) const {
+        return detail::feet(fpt_surface_closest_f32, get(), points, options);
     }
     /** As fpt_surface_closest: the records stay with the caller, also when FPT_CANCELLED is thrown. */
     void closest(const double *points, std::size_t count, const fpt_query_options *options,
@@ -591,7 +611,12 @@ public:
     /** One record per query point, x,y,z each. */
     std::vector<fpt_foot_point> invert(const std::vector<double> &points,
                                        const fpt_query_options &options = query_options()) const {
-        return detail::feet<fpt_surface>(fpt_surface_invert, get(), points, options);
+        return detail::feet(fpt_surface_invert, get(), points, options);
+    }
+    /** The same for points in single precision. */
+    std::vector<fpt_foot_point> invert_f32(const std::vector<float> &points,
+                                           const fpt_query_options &options = query_options()) const {
+        return detail::feet(fpt_surface_invert_f32, get(), points, options);
     }
     /** As fpt_surface_invert: the records stay with the caller, also when FPT_CANCELLED is thrown. */
     void invert(const double *points, std::size_t count, const fpt_query_options *options,
@@ -690,6 +715,150 @@ private:
     }
 
     std::unique_ptr<fpt_surface, deleter> handle_;
+};
+
+/** Three rows of rotation and translation, as fpt_scene_member.placement. */
+using placement = std::array<double, 12>;
+
+/** Feet in a scene, and whose they are. */
+struct scene_feet {
+    std::vector<fpt_foot_point> feet;
+    /** The member of each foot; UINT32_MAX: none. */
+    std::vector<std::uint32_t> members;
+};
+
+/** Many curves and surfaces searched together: owner of an fpt_scene. */
+class scene {
+public:
+    /** As fpt_scene_new; the shapes may go before the scene does. */
+    explicit scene(const std::vector<fpt_scene_member> &members) : handle_(make(members)) {}
+
+    /** Takes a handle over. */
+    explicit scene(fpt_scene *handle) noexcept : handle_(handle) {}
+
+    /** A member where it stands; the shape must live until the scene is made. */
+    static fpt_scene_member member(const curve &shape) { return member(shape.get(), nullptr, nullptr); }
+    /** A member where it stands; the shape must live until the scene is made. */
+    static fpt_scene_member member(const surface &shape) { return member(nullptr, shape.get(), nullptr); }
+    /** A placed member; shape and placement must live until the scene is made. */
+    static fpt_scene_member member(const curve &shape, const placement &place) {
+        return member(shape.get(), nullptr, place.data());
+    }
+    /** A placed member; shape and placement must live until the scene is made. */
+    static fpt_scene_member member(const surface &shape, const placement &place) {
+        return member(nullptr, shape.get(), place.data());
+    }
+    static fpt_scene_member member(const curve &shape, placement &&place) = delete;
+    static fpt_scene_member member(const surface &shape, placement &&place) = delete;
+
+    /** The handle, still owned here. */
+    const fpt_scene *get() const noexcept { return handle_.get(); }
+    /** The handle, owned by the caller from now on. */
+    fpt_scene *release() noexcept { return handle_.release(); }
+
+    std::size_t size() const { return detail::value(fpt_scene_count, get()); }
+    /** Least x,y,z, then greatest x,y,z. */
+    std::array<double, 6> box() const { return detail::array<6>(fpt_scene_box, get()); }
+    /** Bytes held, as fpt_scene_memory. */
+    std::size_t memory() const { return detail::value(fpt_scene_memory, get()); }
+    /** Where a member stands. */
+    placement placement_of(std::uint32_t member) const {
+        placement out{};
+        check(fpt_scene_placement(get(), member, out.data()));
+        return out;
+    }
+    /** A member's shape, shared; one of both is an owner of nothing. */
+    std::pair<curve, surface> shape_of(std::uint32_t member) const {
+        fpt_curve *as_curve = nullptr;
+        fpt_surface *as_surface = nullptr;
+        check(fpt_scene_shape(get(), member, &as_curve, &as_surface));
+        return {curve(as_curve), surface(as_surface)};
+    }
+    /** The point of a member where it stands. */
+    point evaluate(std::uint32_t member, double u, double v = 0) const {
+        point out{};
+        check(fpt_scene_evaluate(get(), member, u, v, 0, out.data()));
+        return out;
+    }
+
+    /** Builds the search indexes now, on all cores. */
+    void prepare() const { check(fpt_scene_prepare(get())); }
+
+    /** One record per query point, x,y,z each, and its member. Hints: members per query, and options.hints. */
+    scene_feet closest(const std::vector<double> &points, const fpt_query_options &options = query_options(),
+                       const std::vector<std::uint32_t> &hint_members = {}) const {
+        return ask<double>(fpt_scene_closest, points, options, hint_members);
+    }
+    /** The same for points in single precision. */
+    scene_feet closest_f32(const std::vector<float> &points, const fpt_query_options &options = query_options(),
+                           const std::vector<std::uint32_t> &hint_members = {}) const {
+        return ask<float>(fpt_scene_closest_f32, points, options, hint_members);
+    }
+    /** As closest, and points proven to be off every member are marked. */
+    scene_feet invert(const std::vector<double> &points, const fpt_query_options &options = query_options(),
+                      const std::vector<std::uint32_t> &hint_members = {}) const {
+        return ask<double>(fpt_scene_invert, points, options, hint_members);
+    }
+    /** The same for points in single precision. */
+    scene_feet invert_f32(const std::vector<float> &points, const fpt_query_options &options = query_options(),
+                          const std::vector<std::uint32_t> &hint_members = {}) const {
+        return ask<float>(fpt_scene_invert_f32, points, options, hint_members);
+    }
+
+    /** The unit normal at each foot and the signed distance of its query; packed points x,y,z, one per foot. */
+    directions normals(const std::vector<double> &points, const scene_feet &found) const {
+        const std::size_t count = found.feet.size();
+        detail::require(points.size() == 3 * count, "points: need x,y,z for each foot");
+        detail::require(found.members.size() == count, "members: need one for each foot");
+        directions out{std::vector<double>(3 * count), std::vector<double>(count),
+                       std::vector<std::uint32_t>(count)};
+        check(fpt_scene_normals(get(), points.data(), found.feet.data(), found.members.data(), count,
+                                out.vectors.data(), out.signed_distances.data(), out.flags.data()));
+        return out;
+    }
+
+private:
+    struct deleter {
+        void operator()(fpt_scene *handle) const noexcept { fpt_scene_free(handle); }
+    };
+
+    template <class Number>
+    using query = fpt_status (*)(const fpt_scene *, const Number *, std::size_t, const fpt_query_options *,
+                                 const std::uint32_t *, fpt_foot_point *, std::uint32_t *);
+
+    template <class Number>
+    scene_feet ask(query<Number> call, const std::vector<Number> &points, const fpt_query_options &options,
+                   const std::vector<std::uint32_t> &hint_members) const {
+        const std::size_t count = detail::point_count(points, options);
+        detail::require(hint_members.empty() || hint_members.size() == count,
+                        "hint_members: need one per query point, or none");
+        scene_feet out{std::vector<fpt_foot_point>(count), std::vector<std::uint32_t>(count)};
+        check(call(get(), points.data(), count, &options, hint_members.empty() ? nullptr : hint_members.data(),
+                   out.feet.data(), out.members.data()));
+        return out;
+    }
+
+    static fpt_scene_member member(const fpt_curve *as_curve, const fpt_surface *as_surface,
+                                   const double *place) noexcept {
+        fpt_scene_member out{};
+        out.struct_size = sizeof out;
+        out.curve = as_curve;
+        out.surface = as_surface;
+        out.placement = place;
+        return out;
+    }
+
+    static fpt_scene *make(const std::vector<fpt_scene_member> &members) {
+        fpt_scene_data data{};
+        data.struct_size = sizeof data;
+        data.member_count = members.size();
+        data.members = members.data();
+        fpt_scene *out = nullptr;
+        check(fpt_scene_new(&data, &out));
+        return out;
+    }
+
+    std::unique_ptr<fpt_scene, deleter> handle_;
 };
 
 } // namespace footpoint

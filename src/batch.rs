@@ -9,15 +9,17 @@
 use std::cell::Cell;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
+use std::thread::LocalKey;
 use std::time::Duration;
 
 use crate::bounds::Vector;
 use crate::closest::{FootPoint, Workspace};
 use crate::error::Error;
 use crate::preimage::ProjectMemory;
+use crate::scene::SceneWorkspace;
 
-/// Queries between two looks at `poll`, and least queries of a tile.
-const GROUP: usize = 128;
+/// Queries between two looks at `poll`, and least queries of a tile and of an order.
+pub const GROUP: usize = 128;
 
 /// Most queries of a tile: their order takes 512 KiB.
 const LARGEST_TILE: usize = 1 << 16;
@@ -42,30 +44,45 @@ pub type Place<'a> = &'a (dyn Fn(usize) -> Vector + Sync);
 /// Asked on the calling thread with the number of queries done; true stops the batch.
 pub type Poll<'a> = &'a mut dyn FnMut(usize) -> bool;
 
+/// Memory that a thread keeps until it ends, so that calls with one query each allocate nothing.
+pub type Kept<W> = LocalKey<Cell<Option<W>>>;
+
 /// What a thread works with.
-pub trait Memory: Default {
-    /// Calls `f` with the memory of the calling thread, which may be kept for its next batch.
-    fn with_own<R>(f: impl FnOnce(&mut Self) -> R) -> R {
-        f(&mut Self::default())
+pub trait Memory: Default + 'static {
+    /// Where the calling thread keeps it for its next batch, if it does.
+    fn kept() -> Option<&'static Kept<Self>> {
+        None
     }
 }
 
-impl Memory for Workspace {
-    /// Kept by the thread until it ends, so that calls with one query each allocate nothing.
-    fn with_own<R>(f: impl FnOnce(&mut Self) -> R) -> R {
-        thread_local! {
-            static OWN: Cell<Option<Workspace>> = const { Cell::new(None) };
+macro_rules! keep {
+    ($memory:ty) => {
+        impl Memory for $memory {
+            fn kept() -> Option<&'static Kept<Self>> {
+                thread_local! {
+                    static OWN: Cell<Option<$memory>> = const { Cell::new(None) };
+                }
+                Some(&OWN)
+            }
         }
-        // A call from within a callback, or while the thread ends, finds none and makes its own.
-        let kept = OWN.try_with(Cell::take).ok().flatten();
-        let mut workspace = kept.unwrap_or_default();
-        let result = f(&mut workspace);
-        let _ = OWN.try_with(|own| own.set(Some(workspace)));
-        result
-    }
+    };
 }
 
+keep!(Workspace);
+keep!(SceneWorkspace);
 impl Memory for ProjectMemory {}
+
+/// Calls `f` with the memory of the calling thread.
+fn with_own<W: Memory, R>(f: impl FnOnce(&mut W) -> R) -> R {
+    // A call from within a callback, or while the thread ends, finds none and makes its own.
+    let kept = W::kept().and_then(|kept| kept.try_with(Cell::take).ok().flatten());
+    let mut memory = kept.unwrap_or_default();
+    let result = f(&mut memory);
+    if let Some(kept) = W::kept() {
+        let _ = kept.try_with(|own| own.set(Some(memory)));
+    }
+    result
+}
 
 /// A tile: number of the first query and where its records go.
 type Tile<'a> = (usize, &'a mut [FootPoint]);
@@ -97,7 +114,7 @@ pub fn run<W: Memory>(
     let size = (total / tiles).clamp(GROUP, LARGEST_TILE);
     let progress = Progress::default();
     if threads == 1 {
-        W::with_own(|memory| {
+        with_own::<W, _>(|memory| {
             for (k, records) in out.chunks_mut(size).enumerate() {
                 work_off((k * size, records), memory, place, work, &progress, poll);
             }
@@ -150,7 +167,7 @@ fn work_together<W: Memory>(
             };
             started.extend(std::thread::Builder::new().spawn_scoped(scope, task));
         }
-        W::with_own(|memory| take_all(memory, poll));
+        with_own::<W, _>(|memory| take_all(memory, poll));
         while !started.iter().all(|thread| thread.is_finished()) {
             if poll(progress.done.load(Ordering::Relaxed)) {
                 progress.stop.store(true, Ordering::Relaxed);
@@ -168,8 +185,9 @@ fn work_off<W>(
     progress: &Progress,
     poll: Poll,
 ) {
-    let order = place.map(|place| in_z_order(first, records.len(), place)).unwrap_or_default();
     let total = records.len();
+    let place = place.filter(|_| total > GROUP);
+    let order = place.map(|place| in_z_order(first, total, place)).unwrap_or_default();
     for group in (0..total).step_by(GROUP) {
         let end = (group + GROUP).min(total);
         let at = |k: usize| order.get(k).map_or(k, |&entry| (entry & 0xffff_ffff) as usize);

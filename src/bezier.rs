@@ -349,8 +349,9 @@ pub fn elevated(f: &[f64], degree: Bidegree, direction: usize) -> Vec<f64> {
 pub fn divided_by_side(f: &[f64], degree: Bidegree, side: usize) -> Vec<f64> {
     let (rows, width) = (degree.s + 1, degree.t + 1);
     let (n, along_s) = if side < 2 { (degree.s, true) } else { (degree.t, false) };
-    let factor = |k: usize| n as f64 / if side % 2 == 0 { k as f64 } else { (n - k) as f64 };
-    let left_out = if side % 2 == 0 { 0 } else { n };
+    let factor =
+        |k: usize| n as f64 / if side.is_multiple_of(2) { k as f64 } else { (n - k) as f64 };
+    let left_out = if side.is_multiple_of(2) { 0 } else { n };
     let keep = |k: usize| k != left_out;
     let mut out = Vec::with_capacity(f.len());
     for i in 0..rows {

@@ -151,6 +151,11 @@ impl CallbackCurve {
         true
     }
 
+    /// Bytes held; what the function keeps for itself is not known.
+    pub fn memory(&self) -> usize {
+        size_of::<Self>() + self.shape.survey.memory()
+    }
+
     /// Box of the samples. The curve may leave it between them.
     pub fn bounding_box(&self) -> Aabb {
         self.shape.survey.aabb
@@ -258,6 +263,11 @@ impl CallbackSurface {
         let count = source::VALUES[order];
         out[..count].copy_from_slice(&sample.values[..count]);
         true
+    }
+
+    /// Bytes held; what the function keeps for itself is not known.
+    pub fn memory(&self) -> usize {
+        size_of::<Self>() + self.shape.survey.memory()
     }
 
     /// Box of the samples. The surface may leave it between them.

@@ -38,6 +38,8 @@ mod curve;
 
 mod surface;
 
+mod within;
+
 use crate::bounds::{HALF_ULP, Vector, norm, sub};
 use crate::index::{Frame, position_error};
 use crate::refine::Method;
@@ -47,6 +49,7 @@ use proof::Proof;
 pub(crate) use certificate::{free_slope, slope_error, squared_error, subtract_query};
 pub(crate) use differences::{Slopes, convexity};
 pub(crate) use surface::local_interval;
+pub(crate) use within::{Found, Within};
 
 /// Bits of [`FootPoint::flags`].
 pub mod flag {
@@ -209,7 +212,7 @@ fn ulp(x: f64) -> f64 {
     x.abs().next_up() - x.abs()
 }
 
-fn is_bad(query: Vector) -> bool {
+pub(crate) fn is_bad(query: Vector) -> bool {
     query.iter().any(|x| !x.is_finite() || x.abs() > GREATEST_COORDINATE)
 }
 
@@ -255,7 +258,7 @@ fn far_foot(mut foot: FootPoint, frame: &Frame, allowed: f64) -> FootPoint {
 }
 
 /// The further flag of an inversion.
-fn mark_inversion(foot: &mut FootPoint, tolerance: f64) {
+pub(crate) fn mark_inversion(foot: &mut FootPoint, tolerance: f64) {
     if foot.lower_bound > tolerance {
         foot.flags |= flag::NOT_ON_SHAPE;
     } else if foot.distance > tolerance {
@@ -268,7 +271,7 @@ fn distance(query: Vector, point: Vector) -> f64 {
 }
 
 /// Rounding of a distance to a box of the tree: a few half ulps of the coordinates that meet there.
-fn tree_slack(query: Vector) -> f64 {
+pub(crate) fn tree_slack(query: Vector) -> f64 {
     16.0 * HALF_ULP * (2.0 + norm(query))
 }
 

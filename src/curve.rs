@@ -91,6 +91,12 @@ impl Curve {
         self.knots.domain()
     }
 
+    /// Bytes of the arrays.
+    pub(crate) fn heap_memory(&self) -> usize {
+        let knots = size_of_val(self.knots.values());
+        knots + size_of_val(self.poles()) + self.weights().map_or(0, size_of_val)
+    }
+
     /// True when there are weights and they are not all equal.
     pub fn is_rational(&self) -> bool {
         self.rational

@@ -9,8 +9,9 @@
 //!                   -> options, records (struct layouts)       options.rs, records.rs
 //!                   -> spline or function behind a handle      form.rs
 //!                   -> Curve, Surface, closest, batch          curve.rs, surface.rs, callback.rs,
-//!                                                              query.rs, sets.rs, lines.rs
+//!                                                              query.rs, floats.rs, sets.rs, lines.rs
 //!                   -> normal, unwrap                          normals.rs, path.rs
+//!                   -> scene                                   scene.rs, scene_query.rs
 //!          <- fpt_status, text of a failure for fpt_last_error
 //! ```
 //!
@@ -30,10 +31,13 @@ mod curve;
 mod surface;
 mod callback;
 mod query;
+mod floats;
 mod sets;
 mod lines;
 mod normals;
 mod path;
+mod scene;
+mod scene_query;
 #[cfg(test)]
 mod tests;
 

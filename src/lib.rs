@@ -45,6 +45,8 @@ pub mod unwrap;
 
 pub mod normal;
 
+pub mod scene;
+
 pub mod callback;
 
 pub mod batch;

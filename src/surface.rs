@@ -99,6 +99,12 @@ impl Surface {
         [u0, u1, v0, v1]
     }
 
+    /// Bytes of the arrays.
+    pub(crate) fn heap_memory(&self) -> usize {
+        let knots = size_of_val(self.knots_u.values()) + size_of_val(self.knots_v.values());
+        knots + size_of_val(self.poles()) + self.weights().map_or(0, size_of_val)
+    }
+
     /// True when there are weights and they are not all equal.
     pub fn is_rational(&self) -> bool {
         self.rational

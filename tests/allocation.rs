@@ -1,4 +1,5 @@
-//! A query allocates nothing once its workspace has grown to the shape, counted by the allocator.
+//! A query allocates nothing once its workspace has grown to the shape, counted by the allocator; and what shapes and
+//! scenes say about the bytes that they hold is what the allocator gave them.
 //!
 //! The one place outside the C layer with `unsafe`: an allocator cannot be written without it.
 #![allow(unsafe_code, reason = "the counting allocator")]
@@ -7,6 +8,7 @@ mod shapes;
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
+use std::sync::Arc;
 
 use footpoint::batch;
 use footpoint::closest::{FootPoint, QueryOptions, Scope, Workspace};
@@ -15,6 +17,7 @@ use footpoint::index::{IndexedCurve, IndexedSurface};
 use footpoint::normal::{Normals, Tangents, flag, of_curve, of_surface};
 use footpoint::preimage::ProjectMemory;
 use footpoint::refine::Method;
+use footpoint::scene::{Hint, Member, Placement, Scene, SceneWorkspace};
 use footpoint::surface::Surface;
 use footpoint::unwrap::PathOutput;
 use shapes::asked::Shape;
@@ -24,21 +27,29 @@ struct Counting;
 
 thread_local! {
     static COUNT: Cell<usize> = const { Cell::new(0) };
+    static BYTES: Cell<isize> = const { Cell::new(0) };
 }
 
-// SAFETY: hands everything on to the system's allocator; the counter is a plain number of the thread.
+fn held(more: usize, less: usize) {
+    let _ = BYTES.try_with(|bytes| bytes.set(bytes.get() + more as isize - less as isize));
+}
+
+// SAFETY: hands everything on to the system's allocator; the counters are plain numbers of the thread.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         let _ = COUNT.try_with(|count| count.set(count.get() + 1));
+        held(layout.size(), 0);
         unsafe { System.alloc(layout) }
     }
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        held(0, layout.size());
         unsafe { System.dealloc(pointer, layout) }
     }
 
     unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         let _ = COUNT.try_with(|count| count.set(count.get() + 1));
+        held(size, layout.size());
         unsafe { System.realloc(pointer, layout, size) }
     }
 }
@@ -51,6 +62,13 @@ fn allocations(work: impl FnOnce()) -> usize {
     let before = COUNT.with(Cell::get);
     work();
     COUNT.with(Cell::get) - before
+}
+
+/// What `make` made, and the bytes of this thread that it holds.
+fn bytes<T>(make: impl FnOnce() -> T) -> (T, f64) {
+    let before = BYTES.with(Cell::get);
+    let made = make();
+    (made, (BYTES.with(Cell::get) - before) as f64)
 }
 
 /// The surface of a meridian in the plane y = 0 turned about the z axis, as nine rational columns.
@@ -242,5 +260,73 @@ fn normals_tangents_uncertainties_and_paths_allocate_nothing_per_foot() {
             }
         };
         assert_eq!(count, 0, "{name}");
+    }
+}
+
+/// All shapes as members, each twice: where it stands and turned.
+fn scene() -> Scene {
+    let turned = [[0.6, -0.8, 0., 1.], [0.8, 0.6, 0., -2.], [0., 0., 1., 0.5]];
+    let places = [Placement::IDENTITY, Placement::new(turned).expect("a placement")];
+    let members = shapes().into_iter().flat_map(|(_, shape)| {
+        let shape = match shape {
+            Shape::Curve(curve) => footpoint::scene::Shape::Curve(Arc::new(curve)),
+            Shape::Surface(surface) => footpoint::scene::Shape::Surface(Arc::new(surface)),
+        };
+        places.map(|placement| Member { shape: shape.clone(), placement })
+    });
+    Scene::new(members.collect()).expect("a scene")
+}
+
+#[test]
+fn a_query_of_a_scene_allocates_nothing_with_a_workspace_that_has_seen_the_scene() {
+    let scene = scene();
+    scene.prepare(1, &mut || false).expect("indexes");
+    let (mut workspace, options) = (SceneWorkspace::default(), QueryOptions::default());
+    let bounds = scene.bounding_box();
+    let r = &mut Random(9);
+    let queries: Vec<(Vector, Option<Hint>)> = (0..60)
+        .map(|k| {
+            let member = (k * 7 % scene.members().len()) as u32;
+            let near = |k: usize| r.between(bounds.low[k], bounds.high[k]) * 0.01;
+            ([0, 1, 2].map(near), (k % 3 == 0).then_some(Hint { member, at: None }))
+        })
+        .collect();
+    let mut ask = || {
+        for (query, hint) in &queries {
+            scene.closest(*query, *hint, &options, &mut workspace);
+        }
+    };
+    ask();
+    assert_eq!(allocations(ask), 0);
+}
+
+/// Two percent, and what an empty allocation costs.
+fn assert_told(told: usize, held: f64, name: &str) {
+    let apart = (told as f64 - held).abs();
+    assert!(apart <= 0.02 * held + 64.0, "{name}: {told} bytes told, {held} held");
+}
+
+#[test]
+fn shapes_and_scenes_tell_the_bytes_that_they_hold() {
+    for ready in [false, true] {
+        for (name, shape) in shapes() {
+            let (told, inline) = match &shape {
+                Shape::Curve(curve) => {
+                    assert!(!ready || curve.prepare(&mut || false).is_ok());
+                    (curve.memory(), size_of_val(curve))
+                }
+                Shape::Surface(surface) => {
+                    assert!(!ready || surface.prepare(&mut || false).is_ok());
+                    (surface.memory(), size_of_val(surface))
+                }
+            };
+            let ((), left) = bytes(|| drop(shape));
+            assert_told(told - inline, -left, &format!("{name}, ready {ready}"));
+        }
+        let scene = scene();
+        assert!(!ready || scene.prepare(1, &mut || false).is_ok());
+        let told = scene.memory() - size_of::<Scene>();
+        let ((), left) = bytes(|| drop(scene));
+        assert_told(told, -left, &format!("a scene, ready {ready}"));
     }
 }

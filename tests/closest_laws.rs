@@ -199,7 +199,7 @@ proptest! {
             };
             // In Z order or not.
             let at = |i: usize| queries[order(i)];
-            let place: Option<batch::Place> = if threads % 2 == 0 { Some(&at) } else { None };
+            let place: Option<batch::Place> = if threads.is_multiple_of(2) { Some(&at) } else { None };
             batch::run(&mut out, threads, place, &work, &mut |_| false).expect("a batch");
             out
         };

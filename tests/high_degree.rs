@@ -145,7 +145,7 @@ fn unclamped_and_periodic_surfaces_are_answered_as_the_independent_search_does()
 /// coefficients of up to 2^k with alternating signs, the worst that a degree can do.
 fn wave(k: usize, degree: usize) -> Vec<f64> {
     let choose = |n: usize, j: usize| (0..j).fold(1.0, |c, i| c * (n - i) as f64 / (i + 1) as f64);
-    let sign = |j: usize| if j % 2 == 0 { 1.0 } else { -1.0 };
+    let sign = |j: usize| if j.is_multiple_of(2) { 1.0 } else { -1.0 };
     let mut c: Vec<f64> =
         (0..=k).map(|j| sign(k - j) * choose(2 * k, 2 * j) / choose(k, j)).collect();
     for n in k..degree {

@@ -287,7 +287,7 @@ proptest! {
 /// `f(t) = 2 t / (1 + t)` as a rational line; its derivatives of every order are known.
 fn hyperbola(t: f64, order: usize) -> f64 {
     let factorial: f64 = (1..=order).map(|i| i as f64).product();
-    let sign = if order % 2 == 0 { -2.0 } else { 2.0 };
+    let sign = if order.is_multiple_of(2) { -2.0 } else { 2.0 };
     let constant = if order == 0 { 2.0 } else { 0.0 };
     constant + sign * factorial / (1.0 + t).powi(order as i32 + 1)
 }
@@ -372,7 +372,7 @@ const CIRCLE: [[f64; 2]; 9] = [
 ];
 
 fn circle_weight(i: usize) -> f64 {
-    if i % 2 == 0 { 1.0 } else { 0.5_f64.sqrt() }
+    if i.is_multiple_of(2) { 1.0 } else { 0.5_f64.sqrt() }
 }
 
 fn circle(radius: f64, centre: [f64; 3]) -> Curve {

@@ -243,13 +243,13 @@ fn mirrored(seed: u64) -> Shape {
     let r = &mut Random(seed);
     let (p, half) = (r.whole(1, 4), r.whole(2, 4));
     let rows = (2 * half).max(p + 1);
-    let columns = if seed % 3 == 0 { 1 } else { r.whole(2, 5) };
+    let columns = if seed.is_multiple_of(3) { 1 } else { r.whole(2, 5) };
     let q = r.whole(1, 3).min(columns - 1).max(1);
     let (mut poles, mut weights) = (vec![[0.; 3]; rows * columns], vec![1.0; rows * columns]);
     for i in 0..rows.div_ceil(2) {
         for j in 0..columns {
             let pole = along([0.2 * i as f64, 0.5 * j as f64, 0.], r.vector(), 0.7);
-            let weight = if seed % 2 == 0 { r.between(0.3, 3.0) } else { 1.0 };
+            let weight = if seed.is_multiple_of(2) { r.between(0.3, 3.0) } else { 1.0 };
             let last = rows - 1 - i;
             let x = if last == i { 0.0 } else { pole[0] };
             poles[i * columns + j] = [x, pole[1], pole[2]];

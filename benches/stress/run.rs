@@ -109,13 +109,13 @@ impl Plan {
         for number in 0..self.queries_a_case {
             let ask = asker.ask(&mut r, memory.1);
             let count = case * self.queries_a_case + number;
-            let examine = count % self.examine_every == 0;
+            let examine = count.is_multiple_of(self.examine_every);
             let judged = judge.judge(&ask, examine, tally.worst, (&mut *memory.0, &mut *memory.1));
             tally.enter(&judged);
             report.kinds.entry(ask.kind).or_default().enter(&judged);
             let text = || format!("case={case} query={number} {ask:?} area {area:?}");
             report.enter(&judged, text);
-            if (count + 1) % self.sets_every == 0 {
+            if (count + 1).is_multiple_of(self.sets_every) {
                 let preimage = sets::preimage(&judge, &ask, memory.1);
                 report.enter_set(0, &preimage, || format!("preimage {}", text()));
                 let extrema = sets::extrema(&judge, &ask, judged.foot.distance, memory.1);

@@ -70,7 +70,8 @@ pub fn almost_primitive(r: &mut Random) -> Design {
 /// The poles of a side: 0 and 1 first and last row, 2 and 3 first and last column.
 fn side(counts: [usize; 2], which: usize) -> Vec<usize> {
     let [m, n] = counts;
-    let is_there = |k: &usize| [k / n == 0, k / n == m - 1, k % n == 0, k % n == n - 1][which];
+    let is_there =
+        |k: &usize| [k / n == 0, k / n == m - 1, k.is_multiple_of(n), k % n == n - 1][which];
     (0..m * n).filter(is_there).collect()
 }
 

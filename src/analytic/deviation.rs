@@ -96,7 +96,7 @@ impl Moved {
         let last = [self.degree.s, self.degree.t];
         let on = |side: usize, k: usize| {
             let at = if side < 2 { k / width } else { k % width };
-            at == if side % 2 == 0 { 0 } else { last[side / 2] }
+            at == if side.is_multiple_of(2) { 0 } else { last[side / 2] }
         };
         let away = |k: usize| norm([0, 1, 2].map(|c| self.poles[c][k])) / self.poles[3][k];
         let count = self.degree.count();

@@ -147,7 +147,7 @@ impl Request<'_> {
     /// A collapsed edge: one point, stationary when the distance rises, falls or stands still on all sides.
     fn collapsed(&mut self, side: usize) {
         let k = side / 2;
-        let inward = if side % 2 == 0 { 1.0 } else { -1.0 };
+        let inward = if side.is_multiple_of(2) { 1.0 } else { -1.0 };
         let mut signs = Vec::new();
         for i in 0..EDGE_SAMPLES {
             let Some(jet) = self.probe.jet_at(self.on_edge(k, self.range[side], i)) else { return };
@@ -227,7 +227,7 @@ impl Request<'_> {
             }
             let mut next = Vec::new();
             for area in boxes {
-                if self.boxes % POLLED == 0 && poll() {
+                if self.boxes.is_multiple_of(POLLED) && poll() {
                     return Err(Error::Cancelled);
                 }
                 self.examine(area, free, resolution, &mut small, &mut next);
@@ -256,11 +256,11 @@ impl Request<'_> {
         if is_sloped(&view, free) {
             return;
         }
-        if let Some(curvature) = view.convexity() {
-            if let Some(outcome) = self.only_foot(&view, range, free, curvature) {
-                small.extend(outcome);
-                return;
-            }
+        if let Some(curvature) = view.convexity()
+            && let Some(outcome) = self.only_foot(&view, range, free, curvature)
+        {
+            small.extend(outcome);
+            return;
         }
         let widths = [0, 1].map(|k| {
             let width = self.probe.shape.source.width(k);

@@ -103,7 +103,7 @@ impl Request<'_> {
                     self.undecided.push(range);
                     continue;
                 }
-                if self.boxes % POLLED == 0 && poll() {
+                if self.boxes.is_multiple_of(POLLED) && poll() {
                     return Err(Error::Cancelled);
                 }
                 self.examine(range, share, &mut kept, &mut next);

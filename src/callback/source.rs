@@ -235,6 +235,13 @@ pub struct Survey {
     pub seeds: Vec<([f64; 2], Vector)>,
 }
 
+impl Survey {
+    /// Bytes of the samples.
+    pub fn memory(&self) -> usize {
+        self.seeds.capacity() * size_of::<([f64; 2], Vector)>()
+    }
+}
+
 /// A function, what it is known to obey, and what samples say.
 #[derive(Debug)]
 pub struct Shape {

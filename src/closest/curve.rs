@@ -10,6 +10,7 @@ use super::elementary::raise;
 use super::line::{Given, Line, LineMemory, Source, search_line};
 use super::local::{LOCAL_FLAGS, WholeCurve, curve_start};
 use super::proof::{Proof, Site, Watch, note_loose};
+use super::within::{Within, nothing_within};
 use super::{
     CONTINUUM_STEPS, FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, distance,
     far_foot, flag, grained, is_bad, is_coarse, mark_inversion, rounding_floor, search_floor,
@@ -46,7 +47,7 @@ impl IndexedCurve {
         let hint = hint.filter(|u| u.is_finite());
         match options.scope {
             Scope::Local => self.local(index, query, hint, options, workspace, trace),
-            Scope::Global => self.global(index, query, hint, options, workspace, trace),
+            Scope::Global => self.global(index, query, hint, None, options, workspace, trace),
         }
     }
 
@@ -86,7 +87,7 @@ impl IndexedCurve {
     }
 
     /// The gap that rounding leaves to a search.
-    fn floor(index: &CurveIndex, query: Vector) -> f64 {
+    pub(super) fn floor(index: &CurveIndex, query: Vector) -> f64 {
         search_floor(&index.frame, query, position_steps(index.degree()), index.is_rational())
     }
 
@@ -116,11 +117,13 @@ impl IndexedCurve {
         foot
     }
 
-    fn global(
+    /// The global search; `within`: only what is nearer than that counts, see [`nothing_within`].
+    pub(super) fn global(
         &self,
         index: &CurveIndex,
         query: Vector,
         hint: Option<f64>,
+        within: Option<Within>,
         options: &QueryOptions,
         workspace: &mut Workspace,
         mut trace: Option<Trace>,
@@ -139,11 +142,9 @@ impl IndexedCurve {
         let whole = self.whole(index, query, floor);
         let range = self.range(options);
         let search = CurveSearch { index, whole, query: q, range, options, steps };
-        if !traced {
-            if let Some(mut foot) = self.elementary(index, query, &search, (gap, allowed)) {
-                foot.flags |= if hint.is_some() { flag::HINT_USED } else { 0 };
-                return foot;
-            }
+        if !traced && let Some(mut foot) = self.elementary(index, query, &search, (gap, allowed)) {
+            foot.flags |= if hint.is_some() { flag::HINT_USED } else { 0 };
+            return foot;
         }
         let mut tell = |step: u32, site: Site, d: f64| {
             if let Some(trace) = &mut trace {
@@ -152,12 +153,18 @@ impl IndexedCurve {
         };
         let watch: Option<Watch> = if traced { Some(&mut tell) } else { None };
         let mut proof = Proof::new(0.5 * gap * index.frame.scale, budget, watch);
+        if let Some(within) = within {
+            proof.begin_within(within.distance * index.frame.scale, within.direction);
+        }
         if let Some(u) = hint {
             search.start_at(u, &mut proof);
         }
         search.walk(workspace, &mut proof);
         search.polish(&mut proof);
         let Some(site) = proof.site else {
+            if within.is_some() {
+                return nothing_within(&proof, &index.frame);
+            }
             return far_foot(
                 self.foot_at(index, query, search.range[0], search.range),
                 &index.frame,
@@ -332,10 +339,10 @@ impl CurveSearch<'_> {
     /// Goes on in the neighbour when the best foot lies on the knot between two segments: the search leaves out what
     /// is nearer by less than the accuracy, the foot should not.
     fn polish(&self, proof: &mut Proof) {
-        if let (Some(site), true) = (proof.site, proof.is_cut_off) {
-            if let Some(range) = self.local_range(site.piece) {
-                self.iterate_from(site.piece, site.at[0], range, proof);
-            }
+        if let (Some(site), true) = (proof.site, proof.is_cut_off)
+            && let Some(range) = self.local_range(site.piece)
+        {
+            self.iterate_from(site.piece, site.at[0], range, proof);
         }
         let Some(site) = proof.site else { return };
         let (piece, start) = match site.at[0] {
@@ -343,10 +350,10 @@ impl CurveSearch<'_> {
             1.0 => (site.piece + 1, 0.0),
             _ => return,
         };
-        if piece < self.index.segments.len() {
-            if let Some(range) = self.local_range(piece) {
-                self.iterate_from(piece, start, range, proof);
-            }
+        if piece < self.index.segments.len()
+            && let Some(range) = self.local_range(piece)
+        {
+            self.iterate_from(piece, start, range, proof);
         }
     }
 

@@ -263,7 +263,10 @@ impl Walk<'_, '_, '_> {
                 return Verdict::Closed;
             }
             (bound, place, weight) = self.least_ratio(at);
-        } else if self.hard() && area.age % TILT_EVERY == 0 && self.cut_free(area).is_none() {
+        } else if self.hard()
+            && area.age.is_multiple_of(TILT_EVERY)
+            && self.cut_free(area).is_none()
+        {
             return Verdict::Closed;
         }
         let allowance = 2.0 * area.error * weight;

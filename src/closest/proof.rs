@@ -132,7 +132,18 @@ impl<'t> Proof<'t> {
         self.jet = None;
         self.is_cut_off = false;
         self.site = Some(site);
-        self.target = (distance - self.gap).max(0.0);
+        self.aim();
+    }
+
+    /// Begins with a foot of another shape, `direction` (a unit vector) and `distance` from the query: only what is
+    /// nearer counts here.
+    pub fn begin_within(&mut self, distance: f64, direction: Vector) {
+        (self.best, self.direction) = (distance, direction);
+        self.aim();
+    }
+
+    fn aim(&mut self) {
+        self.target = (self.best - self.gap).max(0.0);
         self.target_squared = self.target * self.target * (1.0 + 8.0 * HALF_ULP);
     }
 

@@ -7,6 +7,7 @@ use super::elementary::raise;
 use super::local::{LOCAL_FLAGS, WholeSurface, surface_start};
 use super::patch::{PatchMemory, Sheet, search_patch};
 use super::proof::{Proof, Site, Watch, note_loose};
+use super::within::{Within, nothing_within};
 use super::{
     FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, distance, far_foot, flag,
     grained, is_bad, is_coarse, mark_inversion, rounding_floor, search_floor, tree_limit,
@@ -53,7 +54,7 @@ impl IndexedSurface {
         let hint = hint.filter(|at| at.iter().all(|x| x.is_finite()));
         match options.scope {
             Scope::Local => self.local(index, query, hint, options, workspace, trace),
-            Scope::Global => self.global(index, query, hint, options, workspace, trace),
+            Scope::Global => self.global(index, query, hint, None, options, workspace, trace),
         }
     }
 
@@ -96,7 +97,7 @@ impl IndexedSurface {
     }
 
     /// The gap that rounding leaves to a search.
-    fn floor(index: &SurfaceIndex, query: Vector) -> f64 {
+    pub(super) fn floor(index: &SurfaceIndex, query: Vector) -> f64 {
         search_floor(
             &index.frame,
             query,
@@ -132,11 +133,13 @@ impl IndexedSurface {
         foot
     }
 
-    fn global(
+    /// The global search; `within`: only what is nearer than that counts, see [`nothing_within`].
+    pub(super) fn global(
         &self,
         index: &SurfaceIndex,
         query: Vector,
         hint: Option<[f64; 2]>,
+        within: Option<Within>,
         options: &QueryOptions,
         workspace: &mut Workspace,
         mut trace: Option<Trace>,
@@ -152,11 +155,9 @@ impl IndexedSurface {
         let whole = self.whole(index, query, floor);
         let range = self.range(options);
         let search = SurfaceSearch { index, whole, query: q, range, options, steps };
-        if !traced {
-            if let Some(mut foot) = self.elementary(index, query, &search, (gap, allowed)) {
-                foot.flags |= if hint.is_some() { flag::HINT_USED } else { 0 };
-                return foot;
-            }
+        if !traced && let Some(mut foot) = self.elementary(index, query, &search, (gap, allowed)) {
+            foot.flags |= if hint.is_some() { flag::HINT_USED } else { 0 };
+            return foot;
         }
         let mut tell = |step: u32, site: Site, d: f64| {
             if let Some(trace) = &mut trace {
@@ -166,12 +167,18 @@ impl IndexedSurface {
         };
         let watch: Option<Watch> = if traced { Some(&mut tell) } else { None };
         let mut proof = Proof::new(0.5 * gap * index.frame.scale, budget, watch);
+        if let Some(within) = within {
+            proof.begin_within(within.distance * index.frame.scale, within.direction);
+        }
         if let Some(at) = hint {
             search.start_at(at, &mut proof);
         }
         search.walk(workspace, &mut proof);
         search.polish(&mut proof);
         let Some(site) = proof.site else {
+            if within.is_some() {
+                return nothing_within(&proof, &index.frame);
+            }
             let corner = [search.range[0], search.range[2]];
             return far_foot(
                 self.foot_at(index, query, corner, search.range),
@@ -478,10 +485,10 @@ impl SurfaceSearch<'_> {
     /// Goes on where an iteration was cut off, and in the neighbours when the best foot lies on the line between two patches: the search leaves out what
     /// is nearer by less than the accuracy, the foot should not.
     fn polish(&self, proof: &mut Proof) {
-        if let (Some(site), true) = (proof.site, proof.is_cut_off) {
-            if let Some(range) = self.local_range(site.piece) {
-                self.iterate_from(site.piece, site.at, range, Method::Auto, proof);
-            }
+        if let (Some(site), true) = (proof.site, proof.is_cut_off)
+            && let Some(range) = self.local_range(site.piece)
+        {
+            self.iterate_from(site.piece, site.at, range, Method::Auto, proof);
         }
         let Some(site) = proof.site else { return };
         let (columns, rows) = (self.index.columns, self.index.patches.len() / self.index.columns);

@@ -355,7 +355,7 @@ impl Square<'_> {
                 part = part + S::F4::load(x) * S::F4::load(y);
             }
             sum = sum + (part + part);
-            if 2 * i == m && n % 2 == 0 {
+            if 2 * i == m && n.is_multiple_of(2) {
                 let middle = S::F4::load(&net[i * columns + n / 2]);
                 sum = sum + middle * middle;
             }

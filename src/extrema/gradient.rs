@@ -169,7 +169,7 @@ impl Slope {
         let pick = |k: usize| match side {
             0 => k < width,
             1 => k >= self.degree.s * width,
-            2 => k % width == 0,
+            2 => k.is_multiple_of(width),
             _ => k % width == self.degree.t,
         };
         let list = self.coefficients.iter().enumerate();

@@ -213,11 +213,11 @@ impl Meaning for Sheet<'_> {
     /// Where a slope was divided by a parameter that vanishes on a collapsed side, that parameter comes back here.
     fn scale(&self, low: [f64; 2], high: [f64; 2]) -> [f64; 2] {
         let greatest = |k: usize| {
-            let at = self.local(if k % 2 == 0 { high } else { low });
+            let at = self.local(if k.is_multiple_of(2) { high } else { low });
             let x = at[k / 2];
             if !self.collapsed[k] {
                 1.0
-            } else if k % 2 == 0 {
+            } else if k.is_multiple_of(2) {
                 x
             } else {
                 1.0 - x
@@ -258,7 +258,7 @@ impl<'a> Search<'a> {
                 None => self.index.tree.open(next, self.q, limit, queue),
                 Some(k) => {
                     count += 1;
-                    if count % 64 == 0 && poll() {
+                    if count.is_multiple_of(64) && poll() {
                         return Err(Error::Cancelled);
                     }
                     self.patch(k);
@@ -332,7 +332,7 @@ impl<'a> Search<'a> {
     /// Notes how the distance changes along the lines that leave a collapsed side.
     fn leave(&mut self, slope: &Slope, side: usize) {
         let (low, high) = sampled_extent(&slope.on_side(side), slope.error, &mut self.budget);
-        let (low, high) = if side % 2 == 0 { (low, high) } else { (-high, -low) };
+        let (low, high) = if side.is_multiple_of(2) { (low, high) } else { (-high, -low) };
         let known = self.leaving[side].unwrap_or((f64::INFINITY, f64::NEG_INFINITY, 0.0));
         self.leaving[side] = Some((known.0.min(low), known.1.max(high), known.2.max(slope.error)));
     }
@@ -379,7 +379,7 @@ impl<'a> Search<'a> {
     /// Zeros of the derivative along a side.
     fn along_side(&mut self, sheet: &Sheet, side: usize, slope: &Slope) {
         let k = 1 - side / 2;
-        let fixed = if side % 2 == 0 { 0.0 } else { 1.0 };
+        let fixed = if side.is_multiple_of(2) { 0.0 } else { 1.0 };
         let both = |x: f64| if k == 0 { [x, fixed] } else { [fixed, x] };
         if !slope.error.is_finite() {
             self.give_up(sheet, both(0.0), both(1.0));

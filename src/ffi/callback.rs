@@ -189,7 +189,7 @@ pub unsafe extern "C" fn fpt_curve_from_callback(
             second: known([given.second_bound]).map(|[x]| x),
         };
         let curve = CallbackCurve::new(given.domain, bounds, function)?;
-        *out = fpt_curve::handle(CurveForm::Function(curve));
+        *out = fpt_curve::handle(CurveForm::Function(Box::new(curve)));
         user.given_out.store(true, Ordering::Relaxed);
         Ok(())
     })
@@ -225,7 +225,7 @@ pub unsafe extern "C" fn fpt_surface_from_callback(
         let bounds =
             SurfaceBounds { speed: known(given.speed_bounds), second: known(given.second_bounds) };
         let surface = CallbackSurface::new(given.domain, bounds, function)?;
-        *out = fpt_surface::handle(SurfaceForm::Function(surface));
+        *out = fpt_surface::handle(SurfaceForm::Function(Box::new(surface)));
         user.given_out.store(true, Ordering::Relaxed);
         Ok(())
     })

@@ -17,13 +17,13 @@ use std::sync::Arc;
 /// caller, released by fpt_curve_free. A curve from a callback has no degree, knots, poles and weights:
 /// functions that need them return FPT_UNSUPPORTED.
 pub struct fpt_curve {
-    form: Arc<CurveForm>,
+    form: CurveForm,
 }
 
 impl fpt_curve {
     /// A handle for the caller.
     pub(super) fn handle(form: CurveForm) -> *mut Self {
-        Box::into_raw(Box::new(Self { form: Arc::new(form) }))
+        Box::into_raw(Box::new(Self { form }))
     }
 }
 
@@ -118,7 +118,7 @@ pub unsafe extern "C" fn fpt_curve_new(
     // SAFETY: the header asks for a curve data struct and room for a handle.
     guard(|| unsafe {
         let out = place("out", out)?;
-        *out = fpt_curve::handle(CurveForm::Spline(IndexedCurve::new(read(data)?)));
+        *out = fpt_curve::handle(CurveForm::Spline(Arc::new(IndexedCurve::new(read(data)?))));
         Ok(())
     })
 }
@@ -344,4 +344,19 @@ pub unsafe extern "C" fn fpt_curve_is_closed(
 pub unsafe extern "C" fn fpt_curve_prepare(curve: *const fpt_curve) -> fpt_status {
     // SAFETY: the header asks for a live handle.
     guard(|| Ok(unsafe { form(curve) }?.prepare(&mut || false)?))
+}
+
+/// Bytes that the library holds for the curve: the copies of its inputs, and the search index once it is built. What the
+/// function of a callback keeps for itself is not counted.
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_curve_memory(
+    curve: *const fpt_curve,
+    out_memory: *mut usize,
+) -> fpt_status {
+    // SAFETY: the header asks for a live handle and room for the value.
+    guard(|| unsafe {
+        write("out_memory", size_of::<fpt_curve>() + form(curve)?.memory(), out_memory)
+    })
 }

@@ -10,19 +10,20 @@ use crate::error::Error;
 use crate::extrema::ExtremaOptions;
 use crate::index::{IndexedCurve, IndexedSurface, Poll};
 use crate::set::FootSet;
+use std::sync::Arc;
 
 /// A curve of either kind.
 #[derive(Debug)]
 pub(super) enum CurveForm {
-    Spline(IndexedCurve),
-    Function(CallbackCurve),
+    Spline(Arc<IndexedCurve>),
+    Function(Box<CallbackCurve>),
 }
 
 /// A surface of either kind.
 #[derive(Debug)]
 pub(super) enum SurfaceForm {
-    Spline(IndexedSurface),
-    Function(CallbackSurface),
+    Spline(Arc<IndexedSurface>),
+    Function(Box<CallbackSurface>),
 }
 
 fn no_spline(name: &str) -> Failure {
@@ -48,13 +49,6 @@ impl CurveForm {
         match self {
             Self::Spline(curve) => Ok(curve),
             Self::Function(_) => Err(no_spline("curve")),
-        }
-    }
-
-    pub(super) fn index_bytes(&self) -> usize {
-        match self {
-            Self::Spline(curve) => curve.index_bytes(),
-            Self::Function(_) => 0,
         }
     }
 
@@ -107,6 +101,14 @@ impl CurveForm {
         match self {
             Self::Spline(curve) => curve.check_domain(domain),
             Self::Function(curve) => curve.check_domain(domain),
+        }
+    }
+
+    /// Bytes held: the curve, and the index once it is built.
+    pub(super) fn memory(&self) -> usize {
+        match self {
+            Self::Spline(curve) => curve.memory(),
+            Self::Function(curve) => curve.memory(),
         }
     }
 
@@ -178,13 +180,6 @@ impl SurfaceForm {
         }
     }
 
-    pub(super) fn index_bytes(&self) -> usize {
-        match self {
-            Self::Spline(surface) => surface.index_bytes(),
-            Self::Function(_) => 0,
-        }
-    }
-
     pub(super) fn domain(&self) -> [f64; 4] {
         match self {
             Self::Spline(surface) => surface.surface().domain(),
@@ -244,6 +239,14 @@ impl SurfaceForm {
         match self {
             Self::Spline(surface) => surface.check_domain(domain),
             Self::Function(surface) => surface.check_domain(domain),
+        }
+    }
+
+    /// Bytes held: the surface, and the index once it is built.
+    pub(super) fn memory(&self) -> usize {
+        match self {
+            Self::Spline(surface) => surface.memory(),
+            Self::Function(surface) => surface.memory(),
         }
     }
 

@@ -190,13 +190,33 @@ pub(super) fn product(name: &'static str, a: usize, b: usize) -> Result<usize, F
     a.checked_mul(b).ok_or_else(overflow)
 }
 
-/// Rows of `N` doubles, a fixed number of bytes apart, anywhere in memory.
+/// Query points in memory, x,y,z each, in either precision.
+#[derive(Clone, Copy)]
+pub(super) enum Points {
+    Doubles(*const f64),
+    Floats(*const f32),
+}
+
+impl From<*const f64> for Points {
+    fn from(pointer: *const f64) -> Self {
+        Self::Doubles(pointer)
+    }
+}
+
+impl From<*const f32> for Points {
+    fn from(pointer: *const f32) -> Self {
+        Self::Floats(pointer)
+    }
+}
+
+/// Rows of `N` doubles or floats, a fixed number of bytes apart, anywhere in memory.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Strided<'a, const N: usize> {
     base: *const u8,
     stride: usize,
     count: usize,
-    borrowed: PhantomData<&'a [f64]>,
+    are_floats: bool,
+    borrowed: PhantomData<&'a [u8]>,
 }
 
 // SAFETY: rows are only read, and the maker vouched that nobody changes them during `'a`.
@@ -209,22 +229,26 @@ impl<'a, const N: usize> Strided<'a, N> {
     /// A pointer that is not NULL points to `count` rows, `stride` bytes apart, that nobody changes
     /// during `'a`.
     pub(super) unsafe fn new(
-        (name, pointer): (&'static str, *const f64),
+        (name, pointer): (&'static str, impl Into<Points>),
         count: usize,
         (stride_name, stride): (&'static str, usize),
     ) -> Result<Self, Failure> {
-        let packed = N * size_of::<f64>();
+        let (base, each, are_floats) = match pointer.into() {
+            Points::Doubles(pointer) => (pointer.cast::<u8>(), size_of::<f64>(), false),
+            Points::Floats(pointer) => (pointer.cast::<u8>(), size_of::<f32>(), true),
+        };
+        let packed = N * each;
         let stride = if stride == 0 { packed } else { stride };
-        if stride < packed || stride % size_of::<f64>() != 0 {
+        if stride < packed || stride % each != 0 {
             let text =
-                format!("{stride_name}: {stride} is not a multiple of 8 of at least {packed}");
+                format!("{stride_name}: {stride} is not a multiple of {each} of at least {packed}");
             return Err(Failure::invalid(text));
         }
-        if count > 0 && pointer.is_null() {
+        if count > 0 && base.is_null() {
             return Err(Failure::Null(name));
         }
         check_extent(name, count, stride)?;
-        Ok(Self { base: pointer.cast(), stride, count, borrowed: PhantomData })
+        Ok(Self { base, stride, count, are_floats, borrowed: PhantomData })
     }
 
     pub(super) fn len(&self) -> usize {
@@ -233,8 +257,15 @@ impl<'a, const N: usize> Strided<'a, N> {
 
     pub(super) fn row(&self, i: usize) -> [f64; N] {
         assert!(i < self.count, "row {i} of {}", self.count);
-        // SAFETY: row `i` exists, `new` checked that its offset is no overflow, and the read needs no
+        // SAFETY: row `i` exists, `new` checked that its offset is no overflow, and the reads need no
         // alignment.
-        unsafe { self.base.add(i * self.stride).cast::<[f64; N]>().read_unaligned() }
+        unsafe {
+            let row = self.base.add(i * self.stride);
+            if self.are_floats {
+                row.cast::<[f32; N]>().read_unaligned().map(f64::from)
+            } else {
+                row.cast::<[f64; N]>().read_unaligned()
+            }
+        }
     }
 }

@@ -62,7 +62,8 @@ pub struct fpt_query_options {
     /// Borrowed during the call. A hint never changes the distance by more than the accuracy, nor
     /// whether an answer is proven.
     pub hints: *const f64,
-    /// Bytes from one query point to the next: 0 (packed: 24) or a multiple of 8, at least 24.
+    /// Bytes from one query point to the next: 0 (packed: 24) or a multiple of 8, at least 24. For points in floats
+    /// (the functions that end in _f32): 0 (packed: 12) or a multiple of 4, at least 12.
     pub point_stride: usize,
     /// Bytes from one hint to the next: 0 (packed: 16 on a surface, 8 on a curve) or a multiple of 8, at
     /// least that. Looked at only with hints.

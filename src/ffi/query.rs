@@ -5,7 +5,7 @@
 
 use super::curve::{self, fpt_curve};
 use super::form::{CurveForm, SurfaceForm};
-use super::memory::Strided;
+use super::memory::{Points, Strided};
 use super::options::fpt_query_options;
 use super::records::{feet, fpt_foot_point};
 use super::surface::{self, fpt_surface};
@@ -118,8 +118,8 @@ pub unsafe extern "C" fn fpt_surface_invert(
     })
 }
 
-/// Bytes of an index from which on a batch puts its queries in order: half a second-level cache.
-const LARGE: usize = 512 << 10;
+/// Bytes of a shape or scene with its indexes from which on a batch puts its queries in order: half a second-level cache.
+pub(super) const LARGE: usize = 512 << 10;
 
 /// What a batch needs of a shape with `N` parameters.
 pub(super) trait Shape<const N: usize>: Sync {
@@ -127,7 +127,7 @@ pub(super) trait Shape<const N: usize>: Sync {
     fn ends(&self) -> [[f64; 2]; N];
     fn check_restriction(&self, domain: [f64; 4]) -> Result<(), Error>;
     fn build(&self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error>;
-    /// Whether its index is larger than the caches of a core, so that the order of queries counts.
+    /// Whether it is larger than the caches of a core, so that the order of queries counts.
     fn is_large(&self) -> bool;
 }
 
@@ -146,7 +146,7 @@ impl Shape<1> for CurveForm {
     }
 
     fn is_large(&self) -> bool {
-        self.index_bytes() > LARGE
+        self.memory() > LARGE
     }
 }
 
@@ -165,7 +165,7 @@ impl Shape<2> for SurfaceForm {
     }
 
     fn is_large(&self) -> bool {
-        self.index_bytes() > LARGE
+        self.memory() > LARGE
     }
 }
 
@@ -184,7 +184,7 @@ impl Shape<1> for IndexedCurve {
     }
 
     fn is_large(&self) -> bool {
-        self.index_bytes() > LARGE
+        self.memory() > LARGE
     }
 }
 
@@ -203,7 +203,7 @@ impl Shape<2> for IndexedSurface {
     }
 
     fn is_large(&self) -> bool {
-        self.index_bytes() > LARGE
+        self.memory() > LARGE
     }
 }
 
@@ -239,7 +239,7 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
     /// Pointers that are not NULL point to what the header asks for, for as long as the call lasts.
     pub(super) unsafe fn read(
         shape: &'a S,
-        points: *const f64,
+        points: impl Into<Points>,
         count: usize,
         options: *const fpt_query_options,
         out: *mut fpt_foot_point,
@@ -319,7 +319,7 @@ fn restricted<S: Shape<N>, const N: usize>(
     Ok(std::array::from_fn(|k| [domain[2 * k], domain[2 * k + 1]]))
 }
 
-fn check_hints<const N: usize>(hints: &Strided<'_, N>) -> Result<(), Failure> {
+pub(super) fn check_hints<const N: usize>(hints: &Strided<'_, N>) -> Result<(), Failure> {
     match (0..hints.len()).find(|&i| hints.row(i).iter().any(|x| x.is_infinite())) {
         Some(i) => Err(Failure::invalid(format!("hints: hint {i} is infinite"))),
         None => Ok(()),

@@ -17,13 +17,13 @@ use std::sync::Arc;
 /// the caller, released by fpt_surface_free. A surface from a callback has no degrees, knots, poles and
 /// weights: functions that need them return FPT_UNSUPPORTED.
 pub struct fpt_surface {
-    form: Arc<SurfaceForm>,
+    form: SurfaceForm,
 }
 
 impl fpt_surface {
     /// A handle for the caller.
     pub(super) fn handle(form: SurfaceForm) -> *mut Self {
-        Box::into_raw(Box::new(Self { form: Arc::new(form) }))
+        Box::into_raw(Box::new(Self { form }))
     }
 }
 
@@ -141,7 +141,7 @@ pub unsafe extern "C" fn fpt_surface_new(
     // SAFETY: the header asks for a surface data struct and room for a handle.
     guard(|| unsafe {
         let out = place("out", out)?;
-        *out = fpt_surface::handle(SurfaceForm::Spline(IndexedSurface::new(read(data)?)));
+        *out = fpt_surface::handle(SurfaceForm::Spline(Arc::new(IndexedSurface::new(read(data)?))));
         Ok(())
     })
 }
@@ -465,4 +465,19 @@ pub unsafe extern "C" fn fpt_surface_collapsed_edges(
 pub unsafe extern "C" fn fpt_surface_prepare(surface: *const fpt_surface) -> fpt_status {
     // SAFETY: the header asks for a live handle.
     guard(|| Ok(unsafe { form(surface) }?.prepare(&mut || false)?))
+}
+
+/// Bytes that the library holds for the surface: the copies of its inputs, and the search index once it is built. What the
+/// function of a callback keeps for itself is not counted.
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_surface_memory(
+    surface: *const fpt_surface,
+    out_memory: *mut usize,
+) -> fpt_status {
+    // SAFETY: the header asks for a live handle and room for the value.
+    guard(|| unsafe {
+        write("out_memory", size_of::<fpt_surface>() + form(surface)?.memory(), out_memory)
+    })
 }

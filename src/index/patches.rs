@@ -295,7 +295,8 @@ impl SurfaceIndex {
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        (self.nets.capacity() + self.tensors.capacity() + 4 * self.lanes.capacity()) * 8
+        size_of::<Self>()
+            + (self.nets.capacity() + self.tensors.capacity() + 4 * self.lanes.capacity()) * 8
             + self.patches.capacity() * size_of::<Patch>()
             + self.tree.memory()
             + self.grid.memory()

@@ -170,7 +170,8 @@ impl CurveIndex {
 
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        (self.nets.capacity() + self.tensors.capacity() + 4 * self.lanes.capacity()) * 8
+        size_of::<Self>()
+            + (self.nets.capacity() + self.tensors.capacity() + 4 * self.lanes.capacity()) * 8
             + self.segments.capacity() * size_of::<Segment>()
             + self.tree.memory()
             + self.grid.memory()

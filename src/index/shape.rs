@@ -14,7 +14,7 @@ pub type Poll<'a> = &'a mut dyn FnMut() -> bool;
 /// An index that is built on first use. Reading it takes no lock.
 #[derive(Debug)]
 struct Once<T> {
-    value: OnceLock<T>,
+    value: OnceLock<Box<T>>,
     building: Mutex<()>,
 }
 
@@ -24,19 +24,19 @@ impl<T> Once<T> {
     }
 
     fn get(&self) -> Option<&T> {
-        self.value.get()
+        self.value.get().map(|value| &**value)
     }
 
     fn get_or_build(&self, build: impl FnOnce() -> Result<T, Error>) -> Result<&T, Error> {
-        if let Some(value) = self.value.get() {
+        if let Some(value) = self.get() {
             return Ok(value);
         }
         let _only_one = self.building.lock().unwrap_or_else(PoisonError::into_inner);
-        if self.value.get().is_none() {
-            let value = build()?;
+        if self.get().is_none() {
+            let value = Box::new(build()?);
             return Ok(self.value.get_or_init(|| value));
         }
-        self.value.get().ok_or(Error::OutOfMemory)
+        self.get().ok_or(Error::OutOfMemory)
     }
 }
 
@@ -80,6 +80,12 @@ impl IndexedCurve {
         &self.curve
     }
 
+    /// Bytes held: the curve, and the index once it is built.
+    pub fn memory(&self) -> usize {
+        let index = self.index.get().map_or(0, CurveIndex::memory);
+        size_of::<Self>() + self.curve.heap_memory() + index
+    }
+
     /// The index, built now if it was not there.
     ///
     /// # Errors
@@ -92,11 +98,6 @@ impl IndexedCurve {
             }
             Ok(index)
         })
-    }
-
-    /// Bytes of the index, 0 before it is built.
-    pub fn index_bytes(&self) -> usize {
-        self.index.get().map_or(0, CurveIndex::memory)
     }
 
     /// Builds the index if it was not there. Errors as [`Self::index`].
@@ -130,6 +131,12 @@ impl IndexedSurface {
         &self.surface
     }
 
+    /// Bytes held: the surface, and the index once it is built.
+    pub fn memory(&self) -> usize {
+        let index = self.index.get().map_or(0, SurfaceIndex::memory);
+        size_of::<Self>() + self.surface.heap_memory() + index
+    }
+
     /// The index, built now if it was not there.
     ///
     /// # Errors
@@ -142,11 +149,6 @@ impl IndexedSurface {
             }
             Ok(index)
         })
-    }
-
-    /// Bytes of the index, 0 before it is built.
-    pub fn index_bytes(&self) -> usize {
-        self.index.get().map_or(0, SurfaceIndex::memory)
     }
 
     /// Builds the index if it was not there.

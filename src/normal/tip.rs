@@ -39,10 +39,10 @@ pub fn cone(surface: &Surface, edge: usize, closed: bool) -> Fan {
             let step = angle(last, tangent);
             turned += step;
             let normal = if tip.turns_left { cross(last, tangent) } else { cross(tangent, last) };
-            if step > LEAST_ANGLE {
-                if let Some(normal) = unit(normal) {
-                    fan.add(normal, step);
-                }
+            if step > LEAST_ANGLE
+                && let Some(normal) = unit(normal)
+            {
+                fan.add(normal, step);
             }
         }
         before = Some(tangent);
@@ -69,7 +69,7 @@ struct Tip<'a> {
 
 impl<'a> Tip<'a> {
     fn new(surface: &'a Surface, edge: usize) -> Self {
-        let side = if edge % 2 == 0 { Side::Above } else { Side::Below };
+        let side = if edge.is_multiple_of(2) { Side::Above } else { Side::Below };
         let knots = [surface.knots_v(), surface.knots_u()];
         Self {
             surface,

@@ -284,10 +284,10 @@ fn judge(sheet: &Sheet, net: &mut Net, area: [f64; 4]) -> Verdict {
     if n.iter().zip(c).all(|(n, c)| *n > mu * c) {
         return Verdict::Closed;
     }
-    if c.iter().all(|&c| c > 1e-270) {
-        if let Some(verdict) = convex(sheet, net, area, error) {
-            return verdict;
-        }
+    if c.iter().all(|&c| c > 1e-270)
+        && let Some(verdict) = convex(sheet, net, area, error)
+    {
+        return verdict;
     }
     let image = 2.0 * net.size();
     if image <= SMALL_IMAGE[0] * sheet.tolerance {

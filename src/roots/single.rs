@@ -66,11 +66,12 @@ fn magnitude(coefficients: &[f64]) -> f64 {
 
 /// Grows the last interval, which lies to the right, when it touches.
 fn push_flat(out: &mut Vec<Zero<1>>, first: usize, low: f64, high: f64) {
-    if let Some(last) = out[first..].last_mut() {
-        if last.found == Found::Flat && last.low[0] == high {
-            *last = Zero::area(Found::Flat, [low], last.high);
-            return;
-        }
+    if let Some(last) = out[first..].last_mut()
+        && last.found == Found::Flat
+        && last.low[0] == high
+    {
+        *last = Zero::area(Found::Flat, [low], last.high);
+        return;
     }
     out.push(Zero::area(Found::Flat, [low], [high]));
 }

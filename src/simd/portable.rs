@@ -30,7 +30,8 @@ macro_rules! lanewise {
             #[inline(always)]
             fn $name(mut self, other: Self) -> Self {
                 for k in 0..N {
-                    self.0[k] = self.0[k] $sign other.0[k];
+                    let (a, b) = (self.0[k], other.0[k]);
+                    self.0[k] = a $sign b;
                 }
                 self
             }

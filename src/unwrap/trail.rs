@@ -222,10 +222,10 @@ impl<G: Ground> Trail<'_, G> {
         let asked = norm(sub(nearest.query, before.query));
         let grain = SAME * self.ground.diagonal();
         let moved = norm(sub(at_once.foot.point, before.foot.point));
-        if moved <= MOST_STRETCH * asked + grain {
-            if let Some(found) = self.settled(before, &at_once, nearest) {
-                return Some(found);
-            }
+        if moved <= MOST_STRETCH * asked + grain
+            && let Some(found) = self.settled(before, &at_once, nearest)
+        {
+            return Some(found);
         }
         let mut here = *before;
         for step in 1..=CLOSE_STEPS {

@@ -14,7 +14,7 @@ pub enum Shape {
 impl Shape {
     pub fn new(family: usize, seed: u64) -> Self {
         let family = &FAMILIES[family];
-        if seed % 2 == 0 {
+        if seed.is_multiple_of(2) {
             Self::Curve(IndexedCurve::new(curve(family, seed)))
         } else {
             Self::Surface(IndexedSurface::new(surface(family, seed)))
