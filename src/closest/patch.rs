@@ -124,6 +124,9 @@ struct Walk<'a, 'b, 't> {
     tilts: (u64, u64),
 }
 
+/// A vertex within this share of a side is on it.
+const AT_SIDE: f64 = 1e-9;
+
 enum Verdict {
     Closed,
     HalveS,
@@ -321,7 +324,15 @@ impl Walk<'_, '_, '_> {
             let (a, b, c) = (ratio(k - step), ratio(k), ratio(k + step));
             let bend = (a - b) + (c - b);
             let offset = if bend > 0.0 { 0.5 * (a - c) / bend } else { i as f64 - middle as f64 };
-            ((middle as f64 + offset - 0.5) / (degree - 1) as f64).clamp(0.0, 1.0)
+            let share = (middle as f64 + offset - 0.5) / (degree - 1) as f64;
+            // What rounding leaves of a vertex on a side would stay there where the parameter does not move the point.
+            if share < AT_SIDE {
+                0.0
+            } else if share > 1.0 - AT_SIDE {
+                1.0
+            } else {
+                share
+            }
         };
         let s = along(self.degree.s, place / width, width);
         let t = along(self.degree.t, place % width, 1);
