@@ -5,7 +5,7 @@ mod ties;
 
 pub use ties::{neighbour, shortest, wrapped};
 
-use super::certificate::squared_error;
+use super::certificate::{LEAST_C, squared_error};
 use super::elementary::raise;
 use super::line::{Given, Line, LineMemory, Source, search_line};
 use super::local::{LOCAL_FLAGS, WholeCurve, curve_start};
@@ -13,8 +13,8 @@ use super::proof::{Proof, Site, Watch, note_loose};
 use super::within::{Within, nothing_within};
 use super::{
     CONTINUUM_STEPS, FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, distance,
-    far_foot, flag, grained, is_bad, is_coarse, mark_inversion, rounding_floor, search_floor,
-    tree_limit, tree_slack, ulp,
+    far_foot, first_limit, flag, grained, is_bad, is_coarse, mark_inversion, rounding_floor,
+    search_floor, tree_limit, tree_slack, ulp,
 };
 use crate::bounds::{Vector, cross, dot, norm, sub};
 use crate::error::Error;
@@ -359,10 +359,11 @@ impl CurveSearch<'_> {
 
     fn walk(&self, workspace: &mut Workspace, proof: &mut Proof) {
         let slack = tree_slack(self.query);
+        let first = self.first_limit(proof, slack);
         self.index.tree.start(&mut workspace.queue);
         workspace.loose.clear();
         while let Some(next) = workspace.queue.pop() {
-            let limit = tree_limit(proof, slack);
+            let limit = tree_limit(proof, slack).min(first);
             if proof.is_trivial() || next.key > limit {
                 return;
             }
@@ -374,6 +375,17 @@ impl CurveSearch<'_> {
                 }
             }
         }
+    }
+
+    /// How far the walk needs to look before it has found anything: an end of a near segment tells.
+    fn first_limit(&self, proof: &Proof, slack: f64) -> f64 {
+        if proof.best.is_finite() || self.options.domain.is_some() {
+            return f64::INFINITY;
+        }
+        let near = self.index.tree.glance(self.query);
+        near.map_or(f64::INFINITY, |k| {
+            first_limit(self.index.end_distance(k, self.query), proof, slack)
+        })
     }
 
     fn search(&self, k: usize, memory: &mut LineMemory, proof: &mut Proof) {
@@ -388,6 +400,20 @@ impl CurveSearch<'_> {
             size,
             norm(self.query),
         );
+        let radius = segment.radius + size;
+        let error = squared_error(position, radius, product_steps(self.index.degree() + 1));
+        let source = match self.index.tensors(k) {
+            Some(tensors) if range == [0.0, 1.0] => {
+                // Most segments go here, and leave no trace.
+                let mu = proof.level_squared().max(proof.tie_squared()) + error;
+                let (grid, square) = (&self.index.grid, dot(p, p));
+                if mu.is_finite() && grid.product_beyond(tensors, p, square, mu, LEAST_C) {
+                    return;
+                }
+                Source::Tensors(tensors)
+            }
+            _ => Source::Poles,
+        };
         let site = |s: f64| Site { piece: k, at: [s, 0.0] };
         let line = Line {
             segment: self.index.net(k),
@@ -403,12 +429,6 @@ impl CurveSearch<'_> {
             grid: &self.index.grid,
             method: self.options.method,
         };
-        let source = match self.index.tensors(k) {
-            Some(tensors) if range == [0.0, 1.0] => Source::Tensors(tensors),
-            _ => Source::Poles,
-        };
-        let radius = segment.radius + size;
-        let error = squared_error(position, radius, product_steps(line.segment.degree + 1));
         search_line(&line, &Given { source, error, radius }, memory, proof);
     }
 }

@@ -197,7 +197,8 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         }
         let (mut least, mut place, mut weight) = self.least_ratio(at);
         if self.proof.best == f64::INFINITY {
-            self.iterate(interval, place, self.line.range);
+            let start = self.vertex(interval, at, place);
+            self.iterate(start, self.line.range);
             interval.error += 8.0 * HALF_ULP * self.proof.target_squared;
         }
         if !self.proof.spend() || interval.high - interval.low < LEAST_WIDTH {
@@ -222,10 +223,11 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         }
         if interval.small {
             // What no test can tell here is below rounding.
-            self.iterate(interval, place, [interval.low, interval.high]);
+            let start = self.vertex(interval, at, place);
+            self.iterate(start, [interval.low, interval.high]);
             return Verdict::Closed;
         }
-        self.probe(interval, place);
+        self.probe(interval, at, place);
         Verdict::Halve
     }
 
@@ -270,10 +272,9 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         slopes
     }
 
-    /// Runs the local iteration in a range from the Greville abscissa of coefficient `place`.
-    fn iterate(&mut self, interval: &Interval, place: usize, [low, high]: [f64; 2]) -> (f64, Jet1) {
+    /// Runs the local iteration in a range.
+    fn iterate(&mut self, start: f64, [low, high]: [f64; 2]) -> (f64, Jet1) {
         let curve = (self.line.segment, self.line.query);
-        let start = self.abscissa(interval, place);
         let mut found = match &mut self.proof.trace {
             None => foot_on_curve(&curve, start, [low, high], self.line.method, None),
             Some(watch) => {
@@ -304,19 +305,20 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         (s, jet)
     }
 
-    /// The Greville abscissa of coefficient `place`.
-    fn abscissa(&self, interval: &Interval, place: usize) -> f64 {
-        let share = place as f64 / self.line.grid.degree.t as f64;
+    /// Where the distance is likely least, when coefficient `place` of slot `at` has the least ratio.
+    fn vertex(&self, interval: &Interval, at: usize, place: usize) -> f64 {
+        let [_, share] = self.line.grid.vertex(self.slot(at), place);
         interval.low + share * (interval.high - interval.low)
     }
 
     /// Looks at one point of an interval that is not closed yet, and iterates from it when it is nearer than the
     /// best: a target far too high makes `h` concave (by its term in C), and no test could ever close.
-    fn probe(&mut self, interval: &Interval, place: usize) {
-        let jet = self.line.segment.jet(self.abscissa(interval, place), self.line.query);
+    fn probe(&mut self, interval: &Interval, at: usize, place: usize) {
+        let s = self.vertex(interval, at, place);
+        let jet = self.line.segment.jet(s, self.line.query);
         self.proof.evaluations += 1;
         if self.proof.attracts(jet.d) {
-            self.iterate(interval, place, self.line.range);
+            self.iterate(s, self.line.range);
         }
     }
 
@@ -353,7 +355,8 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
             }
             return true;
         }
-        let (s, jet) = self.iterate(interval, place, [interval.low, interval.high]);
+        let start = self.vertex(interval, at, place);
+        let (s, jet) = self.iterate(start, [interval.low, interval.high]);
         if tying {
             return true;
         }

@@ -7,8 +7,8 @@
 mod sides;
 
 use super::certificate::{
-    foot_plane_separates, free_slope, least_height, nearness, plane_separates, slope_error,
-    squared_error, tilted_height, underflows, value_at,
+    LEAST_C, foot_plane_separates, free_slope, least_height, nearness, plane_separates,
+    slope_error, squared_error, tilted_height, underflows, value_at,
 };
 use super::line::LineMemory;
 use super::net::CutFree;
@@ -124,9 +124,6 @@ struct Walk<'a, 'b, 't> {
     tilts: (u64, u64),
 }
 
-/// A vertex within this share of a side is on it.
-const AT_SIDE: f64 = 1e-9;
-
 enum Verdict {
     Closed,
     HalveS,
@@ -183,11 +180,24 @@ impl Walk<'_, '_, '_> {
         }
         match self.sheet.tensors {
             Some(tensors) if self.sheet.range == [0.0, 1.0, 0.0, 1.0] => {
-                self.multiply(tensors, first);
-                false
+                known && self.is_product_beyond(tensors) || {
+                    self.multiply(tensors, first);
+                    false
+                }
             }
             _ => self.load(first, 0),
         }
+    }
+
+    /// Whether nothing in the patch is within the reach of the target and of ties: most patches go here, and leave no trace.
+    fn is_product_beyond(&self, tensors: &[f64]) -> bool {
+        let (p, grid) = (self.sheet.query, self.sheet.grid);
+        let square = dot(p, p);
+        let radius = self.sheet.patch.radius + square.sqrt();
+        let terms = product_steps(self.sheet.net.degree.count());
+        let error = squared_error(self.sheet.position, radius, terms);
+        let far = self.proof.level_squared().max(self.proof.tie_squared());
+        grid.product_beyond(tensors, p, square, far + error + 8.0 * HALF_ULP * far, LEAST_C)
     }
 
     /// Slot 0 from the tensors.
@@ -312,30 +322,9 @@ impl Walk<'_, '_, '_> {
         slopes
     }
 
-    /// Where the distance is likely least, when coefficient `place` of slot `at` has the least ratio: in each direction the
-    /// vertex of the parabola whose coefficients are the three around it (exact for a parabola of any degree).
+    /// Where the distance is likely least, when coefficient `place` of slot `at` has the least ratio.
     fn vertex(&self, area: &Area, at: usize, place: usize) -> [f64; 2] {
-        let width = self.degree.t + 1;
-        let (n, c) = (self.n(at), self.c(at));
-        let ratio = |k: usize| if c.is_empty() { n[k] } else { n[k] / c[k] };
-        let along = |degree: usize, i: usize, step: usize| {
-            let middle = i.clamp(1, degree - 1);
-            let k = place + middle * step - i * step;
-            let (a, b, c) = (ratio(k - step), ratio(k), ratio(k + step));
-            let bend = (a - b) + (c - b);
-            let offset = if bend > 0.0 { 0.5 * (a - c) / bend } else { i as f64 - middle as f64 };
-            let share = (middle as f64 + offset - 0.5) / (degree - 1) as f64;
-            // What rounding leaves of a vertex on a side would stay there where the parameter does not move the point.
-            if share < AT_SIDE {
-                0.0
-            } else if share > 1.0 - AT_SIDE {
-                1.0
-            } else {
-                share
-            }
-        };
-        let s = along(self.degree.s, place / width, width);
-        let t = along(self.degree.t, place % width, 1);
+        let [s, t] = self.sheet.grid.vertex(self.slot(at), place);
         [area.s[0] + s * (area.s[1] - area.s[0]), area.t[0] + t * (area.t[1] - area.t[0])]
     }
 

@@ -10,8 +10,9 @@ use super::patch::{PatchMemory, Sheet, search_patch};
 use super::proof::{Proof, Site, Watch, note_loose};
 use super::within::{Within, nothing_within};
 use super::{
-    FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, far_foot, flag, grained,
-    is_bad, is_coarse, mark_inversion, rounding_floor, search_floor, tree_limit, tree_slack, ulp,
+    FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, far_foot, first_limit,
+    flag, grained, is_bad, is_coarse, mark_inversion, rounding_floor, search_floor, tree_limit,
+    tree_slack, ulp,
 };
 use crate::bounds::{HALF_ULP, Vector, norm, sub};
 use crate::error::Error;
@@ -428,11 +429,12 @@ impl SurfaceSearch<'_> {
 
     fn walk_once(&self, workspace: &mut Workspace, proof: &mut Proof) {
         let slack = tree_slack(self.query);
+        let first = self.first_limit(proof, slack);
         self.index.tree.start(&mut workspace.queue);
         workspace.deferred.clear();
         workspace.loose.clear();
         while let Some(next) = workspace.queue.pop() {
-            let limit = tree_limit(proof, slack);
+            let limit = tree_limit(proof, slack).min(first);
             if proof.is_trivial() || next.key > limit {
                 break;
             }
@@ -459,6 +461,17 @@ impl SurfaceSearch<'_> {
                 note_loose(k, &mut workspace.loose, proof);
             }
         }
+    }
+
+    /// How far the walk needs to look before it has found anything: a corner of a near patch tells.
+    fn first_limit(&self, proof: &Proof, slack: f64) -> f64 {
+        if proof.best.is_finite() || self.options.domain.is_some() {
+            return f64::INFINITY;
+        }
+        let near = self.index.tree.glance(self.query);
+        near.map_or(f64::INFINITY, |k| {
+            first_limit(self.index.corner_distance(k, self.query), proof, slack)
+        })
     }
 
     /// False when patience ran out before the patch was closed.

@@ -10,7 +10,7 @@ use crate::bounds::{Aabb, HALF_ULP, Vector, add, extent, norm, sub};
 use crate::coefficients::Grid;
 use crate::error::Error;
 use crate::index::segments::pieces;
-use crate::jet::{BezierPatch, Lane, lanes};
+use crate::jet::{BezierPatch, Lane, lanes, pole_distance};
 use crate::knots::Knots;
 use crate::simd::Level;
 use crate::surface::Surface;
@@ -127,7 +127,7 @@ impl SurfaceIndex {
         let mut index = Self {
             frame: Frame::new(surface.poles(), surface.bounding_box()),
             patches: reserved(count)?,
-            tree: Tree::new(&[], 0, 0),
+            tree: Tree::new(&[], 0, 0, level),
             degree,
             rational,
             columns,
@@ -159,7 +159,7 @@ impl SurfaceIndex {
                 push_tensors(net, degree, rational, &mut index.tensors);
             }
         }
-        index.tree = Tree::new(&boxes, rows, columns);
+        index.tree = Tree::new(&boxes, rows, columns, level);
         Ok(index)
     }
 
@@ -285,6 +285,14 @@ impl SurfaceIndex {
             lanes,
             level: self.grid.level,
         }
+    }
+
+    /// Distance from `query` to the nearest corner of patch `k`, in the index's coordinates and but for rounding.
+    pub fn corner_distance(&self, k: usize, query: Vector) -> f64 {
+        let (lanes, columns) = (self.net(k).lanes, self.degree.t + 1);
+        let q = sub(query, self.patches[k].center);
+        let corners = [0, self.degree.t, self.degree.s * columns, lanes.len() - 1];
+        corners.into_iter().fold(f64::INFINITY, |least, at| least.min(pole_distance(&lanes[at], q)))
     }
 
     /// Patch `k`'s tensors A, -2 B, C, when they are kept.
