@@ -66,6 +66,13 @@ impl Jet1 {
     }
 }
 
+impl From<Jet1> for Jet2 {
+    /// A jet that does not depend on t.
+    fn from(jet: Jet1) -> Self {
+        Self { d: jet.d, s: jet.s, ss: jet.ss, w: [jet.w[0], jet.w[1], 0.0], ..Self::default() }
+    }
+}
+
 impl Jet2 {
     /// Squared distance.
     pub fn squared(&self) -> f64 {
@@ -179,6 +186,10 @@ fn bernstein<const N: usize>(n: usize, s: f64) -> Basis<N> {
         6 => widened::<6, N>(fixed_basis(s)),
         _ => {
             let mut out = [[0.0; N]; 3];
+            if N <= FIXED + 1 {
+                // Not so many poles: nothing to compile.
+                return out;
+            }
             let [values, first, second] = &mut out;
             basis::<N>(n - 1, s, &mut values[..n], &mut first[..n], &mut second[..n]);
             out

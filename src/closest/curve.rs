@@ -333,7 +333,9 @@ impl CurveSearch<'_> {
         let (s, jet, taken) = foot_on_curve(&view, start, range, self.options.method, None);
         proof.evaluations += taken;
         let flat = || jet.is_flat().then_some([1.0, 0.0]);
-        proof.offer(Site { piece: k, at: [s, 0.0] }, jet.d, flat);
+        let site = Site { piece: k, at: [s, 0.0] };
+        proof.offer(site, jet.d, flat);
+        proof.keep(site, &jet.into());
     }
 
     /// Goes on in the neighbour when the best foot lies on the knot between two segments: the search leaves out what
@@ -429,6 +431,8 @@ impl CurveSearch<'_> {
             grid: &self.index.grid,
             method: self.options.method,
         };
-        search_line(&line, &Given { source, error, radius }, memory, proof);
+        let here = proof.site.filter(|site| site.piece == k);
+        let foot = here.and_then(|site| Some((site.at[0], proof.jet_at(site)?.along(0))));
+        search_line(&line, &Given { source, error, radius, foot }, memory, proof);
     }
 }

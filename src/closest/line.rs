@@ -101,6 +101,8 @@ pub struct Given<'a> {
     pub error: f64,
     /// See `error`.
     pub radius: f64,
+    /// The best foot so far, when it lies on the line, and the jet there.
+    pub foot: Option<(f64, Jet1)>,
 }
 
 /// Searches the line. On return every point of it is at least `proof.target` away, or given up in `proof.lower`,
@@ -114,7 +116,7 @@ struct Walk<'a, 'b, 't> {
     memory: &'a mut LineMemory,
     proof: &'a mut Proof<'t>,
     slot: usize,
-    /// Where the last iteration ended.
+    /// Where the last iteration ended, here or before.
     last: Option<(f64, Jet1)>,
 }
 
@@ -152,6 +154,7 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
 
     fn run(&mut self, given: &Given) {
         let [low, high] = self.line.range;
+        self.last = given.foot;
         let mut first = Interval { low, high, ..Interval::default() };
         if self.open(given, &mut first) {
             return;

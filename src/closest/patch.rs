@@ -41,7 +41,7 @@ pub struct Sheet<'a> {
     pub patch: &'a Patch,
     /// Its number.
     pub piece: usize,
-    /// Tensors A, -2 B, C, when they are kept.
+    /// Tensors A, -2 B, C, when they are kept and the whole patch is searched.
     pub tensors: Option<&'a [f64]>,
     /// The query in the patch's coordinates.
     pub query: Vector,
@@ -59,6 +59,53 @@ pub struct Sheet<'a> {
     pub method: Method,
     /// Boxes after which the patch is put off.
     pub patience: u64,
+}
+
+impl Sheet<'_> {
+    fn far(&self) -> Far<'_> {
+        let (net, tensors, radius) = (self.net, self.tensors, self.patch.radius);
+        let (query, position, grid) = (self.query, self.position, self.grid);
+        Far { net, tensors, radius, query, position, grid }
+    }
+}
+
+/// A patch before anything is set up for its search.
+pub struct Far<'a> {
+    /// As of [`Sheet`].
+    pub net: BezierPatch<'a>,
+    /// As of [`Sheet`].
+    pub tensors: Option<&'a [f64]>,
+    /// Greatest distance of a pole from the origin of the patch.
+    pub radius: f64,
+    /// As of [`Sheet`].
+    pub query: Vector,
+    /// As of [`Sheet`].
+    pub position: f64,
+    /// As of [`Sheet`].
+    pub grid: &'a Grid,
+}
+
+impl Far<'_> {
+    /// Whether a plane shows that nothing is nearer than the target, or the coefficients that nothing is within the reach of
+    /// ties: most patches go here, and leave no trace.
+    pub fn decides(&self, proof: &Proof) -> bool {
+        if !proof.best.is_finite() {
+            return false;
+        }
+        let (net, count) = (&self.net, self.net.degree.count());
+        let (p, position) = (self.query, self.position);
+        if foot_plane_separates(net.poles, count, net.rational, p, proof, position) {
+            return true;
+        }
+        self.tensors.is_some_and(|tensors| {
+            let square = dot(p, p);
+            let radius = self.radius + square.sqrt();
+            let error = squared_error(position, radius, product_steps(count));
+            let far = proof.level_squared().max(proof.tie_squared());
+            let mu = far + error + 8.0 * HALF_ULP * far;
+            self.grid.product_beyond(tensors, p, square, mu, LEAST_C)
+        })
+    }
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -143,7 +190,9 @@ impl Walk<'_, '_, '_> {
         let mut first = Area { s: [s0, s1], t: [t0, t1], ..Area::default() };
         self.proof.spread = self.proof.spread.max(self.sheet.patch.spread);
         self.look_at_collapsed_sides();
-        if self.open(&mut first) {
+        if self.sheet.patch.has_collapsed() && self.sheet.far().decides(self.proof)
+            || self.open(&mut first)
+        {
             return true;
         }
         self.memory.waiting.push(first);
@@ -170,34 +219,13 @@ impl Walk<'_, '_, '_> {
 
     /// The coefficients of the whole range in slot 0; true when a plane already separates the query.
     fn open(&mut self, first: &mut Area) -> bool {
-        let (net, query, position) = (&self.sheet.net, self.sheet.query, self.sheet.position);
-        let count = net.degree.count();
-        let known = self.proof.best.is_finite();
-        if known
-            && foot_plane_separates(net.poles, count, net.rational, query, self.proof, position)
-        {
-            return true;
-        }
         match self.sheet.tensors {
-            Some(tensors) if self.sheet.range == [0.0, 1.0, 0.0, 1.0] => {
-                known && self.is_product_beyond(tensors) || {
-                    self.multiply(tensors, first);
-                    false
-                }
+            Some(tensors) => {
+                self.multiply(tensors, first);
+                false
             }
-            _ => self.load(first, 0),
+            None => self.load(first, 0),
         }
-    }
-
-    /// Whether nothing in the patch is within the reach of the target and of ties: most patches go here, and leave no trace.
-    fn is_product_beyond(&self, tensors: &[f64]) -> bool {
-        let (p, grid) = (self.sheet.query, self.sheet.grid);
-        let square = dot(p, p);
-        let radius = self.sheet.patch.radius + square.sqrt();
-        let terms = product_steps(self.sheet.net.degree.count());
-        let error = squared_error(self.sheet.position, radius, terms);
-        let far = self.proof.level_squared().max(self.proof.tie_squared());
-        grid.product_beyond(tensors, p, square, far + error + 8.0 * HALF_ULP * far, LEAST_C)
     }
 
     /// Slot 0 from the tensors.

@@ -6,7 +6,7 @@ mod ties;
 
 use super::elementary::raise;
 use super::local::{LOCAL_FLAGS, WholeSurface, surface_start};
-use super::patch::{PatchMemory, Sheet, search_patch};
+use super::patch::{Far, PatchMemory, Sheet, search_patch};
 use super::proof::{Proof, Site, Watch, note_loose};
 use super::within::{Within, nothing_within};
 use super::{
@@ -479,27 +479,29 @@ impl SurfaceSearch<'_> {
         let Some(range) = self.local_range(k) else { return true };
         let patch = &self.index.patches[k];
         let query = sub(self.query, patch.center);
-        let position = position_error(
-            self.steps,
-            self.index.rational,
-            patch.radius,
-            norm(query),
-            norm(self.query),
-        );
+        let (net, grid) = (self.index.net(k), &self.index.grid);
+        let (rational, size) = (self.index.rational, norm(self.query));
+        let position = position_error(self.steps, rational, patch.radius, norm(query), size);
+        let is_whole = range == [0.0, 1.0, 0.0, 1.0];
+        let tensors = self.index.tensors(k).filter(|_| is_whole);
+        let far = Far { net, tensors, radius: patch.radius, query, position, grid };
+        if !patch.has_collapsed() && far.decides(proof) {
+            return true;
+        }
         // The caller's range decides: its local image may end on a piece's side without being one's own.
         let [u0, u1, v0, v1] = self.range;
         let (u, v) = (patch.u.ends, patch.v.ends);
         let cut = [u0 >= u[0], u1 <= u[1], v0 >= v[0], v1 <= v[1]];
         let sheet = Sheet {
-            net: self.index.net(k),
+            net,
             patch,
             piece: k,
-            tensors: self.index.tensors(k),
+            tensors,
             query,
             position,
             range,
             border: [0, 1, 2, 3].map(|e| patch.border[e] || cut[e]),
-            grid: &self.index.grid,
+            grid,
             edge_grids: &self.index.edge_grids,
             method: self.options.method,
             patience,

@@ -51,6 +51,13 @@ pub struct Patch {
     pub spread: f64,
 }
 
+impl Patch {
+    /// Whether one of its sides is a collapsed edge.
+    pub fn has_collapsed(&self) -> bool {
+        self.collapsed != [false; 4]
+    }
+}
+
 /// Search structure of a surface.
 #[derive(Debug)]
 pub struct SurfaceIndex {
