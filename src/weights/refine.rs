@@ -25,7 +25,11 @@ use crate::index::Poll;
 use crate::knots::MAX_MAGNITUDE;
 
 /// Most starts by default.
-pub const DEFAULT_STARTS: u32 = 60;
+pub const DEFAULT_STARTS: u32 = 1_000;
+
+/// So many starts from anywhere that all end as well as the best one, within [`SAME`] of its squared misses, end the search.
+const ENOUGH: u32 = 12;
+const SAME: f64 = 0.02;
 
 /// Share of the tolerance within which a search must end: the rest is for the proof.
 const INNER: f64 = 0.25;
@@ -204,7 +208,7 @@ impl Search<'_> {
         let limit = INNER * self.tolerance / self.problem.diagonal;
         let most = if options.starts > 0 { options.starts } else { DEFAULT_STARTS };
         let mut random = Random::new(options.seed);
-        let mut best: Option<Place> = None;
+        let (mut best, mut hits) = (None::<Place>, 0);
         for number in 0..most {
             if poll() {
                 return Err(Error::Cancelled);
@@ -216,9 +220,17 @@ impl Search<'_> {
                 let place = self.bounds.settle(self.problem, place, limit, &mut self.tools)?;
                 return Ok((place.weights, number + 1));
             }
-            let squares = |place: &Place| place.equations.squares();
-            if best.as_ref().is_none_or(|best| squares(&place) < squares(best)) {
+            let before = best.as_ref().map_or(f64::INFINITY, Place::squares);
+            if place.squares() < before * (1.0 - SAME) {
+                hits = 0;
+            } else if place.squares() < before * (1.0 + SAME) && !is_around(number) {
+                hits += 1;
+            }
+            if place.squares() < before {
                 best = Some(place);
+            }
+            if hits >= ENOUGH {
+                return Ok((best.map_or_else(Vec::new, |best| best.weights), number + 1));
             }
         }
         Ok((best.map_or_else(Vec::new, |best| best.weights), most))
@@ -248,8 +260,9 @@ impl Search<'_> {
             (2, Some(given), _) => Ok(collect(&|k| given[k] / given[0])),
             (2, None, _) => Ok(collect(&|_| 1.0)),
             // Half of the others begin around the best so far, half anywhere.
-            (_, _, Some(best)) if number % 2 == 0 => {
-                let around = |w: &f64| (w * factor_within(random, 2.0)).clamp(low, high);
+            (_, _, Some(best)) if is_around(number) => {
+                let span = 1.1 + 2.0 * random.signed().abs();
+                let around = |w: &f64| (w * factor_within(random, span)).clamp(low, high);
                 Ok(best.weights.iter().map(around).collect())
             }
             _ => {
@@ -286,6 +299,11 @@ impl Search<'_> {
         }
         Ok(weights)
     }
+}
+
+/// Whether a start begins around the best weights so far: every other one behind the first.
+fn is_around(number: u32) -> bool {
+    number > 2 && number % 2 == 0
 }
 
 /// A random factor, mostly within 1 / `span` to `span`.

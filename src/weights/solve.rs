@@ -26,6 +26,16 @@ const LONGEST: f64 = 1.5;
 /// Share of the metric of variables that have a wish of their own: they move first.
 const WISHED: f64 = 1e-3;
 
+/// A search is given up when the squares have not fallen to this share within so many steps.
+const PROGRESS: f64 = 0.3;
+const PACE: usize = 8;
+
+/// A search that gets stuck at a kink takes a whole step over it, at most so many times.
+const MOST_LEAPS: usize = 6;
+
+/// Greatest residual from which that is not worth while: there it is rounding that is in the way.
+const LEAP_FROM: f64 = 1e-12;
+
 /// Ridge, relative to the mean of the diagonal: equations that say the same twice share the work.
 const RIDGE: f64 = 1e-14;
 
@@ -51,6 +61,11 @@ impl Place {
     pub fn new(problem: &Problem, weights: Vec<f64>, tools: &mut Tools) -> Result<Self, Error> {
         let equations = problem.equations(&weights, tools)?;
         Ok(Self { weights, equations })
+    }
+
+    /// The sum of the squared residuals.
+    pub fn squares(&self) -> f64 {
+        self.equations.squares()
     }
 }
 
@@ -111,17 +126,35 @@ impl Bounds {
         most: usize,
         tools: &mut Tools,
     ) -> Result<Place, Error> {
-        for _ in 0..most.min(MOST_STEPS) {
+        let (mut best, mut leaps) = (None::<Place>, 0);
+        let mut mark = f64::INFINITY;
+        for number in 0..most.min(MOST_STEPS) {
             if place.equations.worst() <= ROUNDING {
                 break;
             }
+            if number % PACE == 0 {
+                if place.squares() > PROGRESS * mark {
+                    break;
+                }
+                mark = place.squares();
+            }
             let Some(step) = self.step(&place, false) else { break };
-            match self.shorter(problem, &place, &step, tools)? {
-                Some(better) => place = better,
-                None => break,
+            if let Some(better) = self.shorter(problem, &place, &step, tools)? {
+                place = better;
+                continue;
+            }
+            if leaps == MOST_LEAPS || place.equations.worst() <= LEAP_FROM || most < MOST_STEPS {
+                break;
+            }
+            leaps += 1;
+            let moved = self.moved(&place.weights, &step, share_of(&step));
+            let beyond = Place::new(problem, moved, tools)?;
+            let before = std::mem::replace(&mut place, beyond);
+            if best.as_ref().is_none_or(|best| before.squares() < best.squares()) {
+                best = Some(before);
             }
         }
-        Ok(place)
+        Ok(best.filter(|best| best.squares() < place.squares()).unwrap_or(place))
     }
 
     /// The first share of a step that makes the squares smaller.
@@ -132,14 +165,13 @@ impl Bounds {
         step: &[f64],
         tools: &mut Tools,
     ) -> Result<Option<Place>, Error> {
-        let longest = step.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        let (mut share, before) = ((LONGEST / longest).min(1.0), place.equations.squares());
-        for _ in 0..10 {
+        let (mut share, before) = (share_of(step), place.squares());
+        for _ in 0..6 {
             let next = Place::new(problem, self.moved(&place.weights, step, share), tools)?;
-            if next.equations.squares() < before * (1.0 - 1e-3 * share) {
+            if next.squares() < before * (1.0 - 1e-3 * share) {
                 return Ok(Some(next));
             }
-            share *= 0.4;
+            share *= 0.3;
         }
         Ok(None)
     }
@@ -160,7 +192,7 @@ impl Bounds {
             if cost < 1e-30 || longest < 1e-13 || share < 1e-3 {
                 break;
             }
-            let share_now = share * (LONGEST / longest).min(1.0);
+            let share_now = share * share_of(&step);
             let moved = self.moved(&place.weights, &step, share_now);
             let next = Place::new(problem, moved, tools)?;
             let next = self.meet(problem, next, 6, tools)?;
@@ -177,6 +209,12 @@ impl Bounds {
         }
         Ok(place)
     }
+}
+
+/// The share of a step that is not too long.
+fn share_of(step: &[f64]) -> f64 {
+    let longest = step.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    (LONGEST / longest).min(1.0)
 }
 
 /// The step with some variables fixed.

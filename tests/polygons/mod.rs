@@ -112,13 +112,28 @@ pub fn is_true(report: &Report, size: f64) -> bool {
 pub fn refine_many(seed: u64, count: u64) -> Tally {
     let mut tally = Tally::default();
     for i in 0..count {
+        if let Ok(only) = std::env::var("ONLY")
+            && !only.split(',').any(|x| x == i.to_string())
+        {
+            continue;
+        }
         let mut random = Random(seed.wrapping_mul(1 << 40).wrapping_add(i << 8));
         let polygon = polygon(&mut random);
         let wishes = wishes(&mut random, &polygon);
         let curve = Curve::new(&polygon.0, polygon.1, &polygon.2, None).unwrap();
         let net = Net::Curve(&curve);
         let start = Instant::now();
-        let report = refine(net, &wishes, &[], &Options::default(), &mut || false).unwrap();
+        let report = refine(
+            net,
+            &wishes,
+            &[],
+            &Options {
+                starts: std::env::var("STARTS").ok().and_then(|x| x.parse().ok()).unwrap_or(0),
+                ..Options::default()
+            },
+            &mut || false,
+        )
+        .unwrap();
         let ms = 1e3 * start.elapsed().as_secs_f64();
         tally.curves += 1;
         tally.total_ms += ms;
@@ -137,6 +152,19 @@ pub fn refine_many(seed: u64, count: u64) -> Tally {
             tally.wrong += 1;
         }
         if !report.is_met() && std::env::var_os("SHOW").is_some() {
+            for (k, p) in report.poles.iter().enumerate() {
+                if !p.wish.is_nan() {
+                    println!(
+                        "   {k} w {:.4} wish {:.6} got {:.9} off {:.1e} u {:.5} lb {:.1e}",
+                        p.weight,
+                        p.wish,
+                        p.distance,
+                        p.distance - p.wish,
+                        p.u,
+                        p.distance - p.lower_bound
+                    );
+                }
+            }
             println!(
                 "{i}: {} poles degree {} wishes {} starts {}",
                 polygon.2.len(),
