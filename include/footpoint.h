@@ -848,7 +848,7 @@ typedef struct fpt_weights_options {
      */
     uint32_t steps;
     /**
-     * Most searches of a refinement; 0: 1,000. It takes more than one when wishes are not met; each about 0.1 ms to 1 ms for a curve.
+     * Most searches of a refinement; 0: 2,000. One or a few are enough when the wishes exist; each takes 0.1 ms to 1 ms for a curve.
      */
     uint32_t starts;
     /**

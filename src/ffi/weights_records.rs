@@ -169,7 +169,7 @@ pub struct fpt_weights_options {
     pub symmetric: u32,
     /// Most training steps of a network; 0: 1,000.
     pub steps: u32,
-    /// Most searches of a refinement; 0: 1,000. It takes more than one when wishes are not met; each about 0.1 ms to 1 ms for a curve.
+    /// Most searches of a refinement; 0: 2,000. One or a few are enough when the wishes exist; each takes 0.1 ms to 1 ms for a curve.
     pub starts: u32,
     /// Must be 0.
     pub reserved: u32,

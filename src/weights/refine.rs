@@ -25,10 +25,10 @@ use crate::index::Poll;
 use crate::knots::MAX_MAGNITUDE;
 
 /// Most starts by default.
-pub const DEFAULT_STARTS: u32 = 1_000;
+pub const DEFAULT_STARTS: u32 = 2_000;
 
 /// So many starts from anywhere that all end as well as the best one, within [`SAME`] of its squared misses, end the search.
-const ENOUGH: u32 = 12;
+const ENOUGH: u32 = 30;
 const SAME: f64 = 0.02;
 
 /// Share of the tolerance within which a search must end: the rest is for the proof.
@@ -208,6 +208,7 @@ impl Search<'_> {
         let limit = INNER * self.tolerance / self.problem.diagonal;
         let most = if options.starts > 0 { options.starts } else { DEFAULT_STARTS };
         let mut random = Random::new(options.seed);
+        let moderate = self.bounds.moderate();
         let (mut best, mut hits) = (None::<Place>, 0);
         for number in 0..most {
             if poll() {
@@ -215,7 +216,8 @@ impl Search<'_> {
             }
             let weights = self.start(number, poles, best.as_ref(), &mut random)?;
             let place = Place::new(self.problem, weights, &mut self.tools)?;
-            let place = self.bounds.meet(self.problem, place, usize::MAX, &mut self.tools)?;
+            let bounds = if is_moderate(number) { &moderate } else { self.bounds };
+            let place = bounds.meet(self.problem, place, usize::MAX, &mut self.tools)?;
             if place.equations.worst() <= limit {
                 let place = self.bounds.settle(self.problem, place, limit, &mut self.tools)?;
                 return Ok((place.weights, number + 1));
@@ -257,18 +259,34 @@ impl Search<'_> {
         match (number, given, best) {
             (0, ..) => Ok(guess),
             (1, ..) => self.by_ratios(guess),
-            (2, Some(given), _) => Ok(collect(&|k| given[k] / given[0])),
+            (2, Some(given), _) => {
+                let ends =
+                    given.iter().fold([f64::MAX, 0.0_f64], |[a, b], w| [a.min(*w), b.max(*w)]);
+                let middle = ends[0].sqrt() * ends[1].sqrt();
+                Ok(collect(&|k| given[k] / middle))
+            }
             (2, None, _) => Ok(collect(&|_| 1.0)),
-            // Half of the others begin around the best so far, half anywhere.
+            // Half of the others begin at the best so far with a few weights changed much, half anywhere.
             (_, _, Some(best)) if is_around(number) => {
-                let span = 1.1 + 2.0 * random.signed().abs();
-                let around = |w: &f64| (w * factor_within(random, span)).clamp(low, high);
-                Ok(best.weights.iter().map(around).collect())
+                let mut weights = best.weights.clone();
+                for _ in 0..1 + number % 3 {
+                    let chosen = random.below(weights.len());
+                    weights[chosen] =
+                        (weights[chosen] * factor_within(random, 10.0)).clamp(low, high);
+                }
+                let jittered = |w: &f64| (w * factor_within(random, 1.1)).clamp(low, high);
+                Ok(weights.iter().map(jittered).collect())
             }
             _ => {
-                let anywhere = |_| factor_within(random, (high / low).sqrt()).clamp(low, high);
+                let span = if is_moderate(number) {
+                    (high / low).sqrt().sqrt()
+                } else {
+                    (high / low).sqrt()
+                };
+                let middle = low.sqrt() * high.sqrt();
+                let anywhere = |_| (middle * factor_within(random, span)).clamp(low, high);
                 let weights = (0..self.problem.variables).map(anywhere).collect();
-                if number % 4 == 1 { self.by_ratios(weights) } else { Ok(weights) }
+                if number % 8 < 4 { self.by_ratios(weights) } else { Ok(weights) }
             }
         }
     }
@@ -304,6 +322,11 @@ impl Search<'_> {
 /// Whether a start begins around the best weights so far: every other one behind the first.
 fn is_around(number: u32) -> bool {
     number > 2 && number % 2 == 0
+}
+
+/// Whether a search stays in the moderate range.
+fn is_moderate(number: u32) -> bool {
+    number > 2 && number % 4 >= 2
 }
 
 /// A random factor, mostly within 1 / `span` to `span`.

@@ -18,7 +18,7 @@ use super::rows::{Equations, Problem, Tools, factor, height};
 use crate::error::Error;
 
 /// Most steps of one search for weights that meet the equations.
-const MOST_STEPS: usize = 60;
+const MOST_STEPS: usize = 200;
 
 /// Longest step of a logarithm: a factor of about five.
 const LONGEST: f64 = 1.5;
@@ -28,6 +28,9 @@ const WISHED: f64 = 1e-3;
 
 /// A search is given up when the squares have not fallen to this share within so many steps.
 const PROGRESS: f64 = 0.3;
+/// Near a solution, where weights at the ends of the range may leave a narrow valley, slower progress will do.
+const NEAR: f64 = 1e-3;
+const CRAWL: f64 = 0.9;
 const PACE: usize = 8;
 
 /// A search that gets stuck at a kink takes a whole step over it, at most so many times.
@@ -82,6 +85,14 @@ impl Bounds {
         each.filter_map(|(target, w)| target.map(|t| height(w / t).powi(2))).sum()
     }
 
+    /// The same in a range that is half as wide in logarithms: extreme weights are where searches get stuck.
+    pub fn moderate(&self) -> Self {
+        let [low, high] = self.range;
+        let (middle, half) = (low.sqrt() * high.sqrt(), (high / low).sqrt().sqrt());
+        let range = [(middle / half).max(low), (middle * half).min(high)];
+        Self { range, targets: self.targets.clone() }
+    }
+
     /// How far a variable may go in one direction.
     fn room(&self, weight: f64, step: f64) -> f64 {
         height(if step > 0.0 { self.range[1] } else { self.range[0] } / weight)
@@ -133,7 +144,8 @@ impl Bounds {
                 break;
             }
             if number % PACE == 0 {
-                if place.squares() > PROGRESS * mark {
+                let near = place.equations.worst() < NEAR;
+                if place.squares() > if near { CRAWL } else { PROGRESS } * mark {
                     break;
                 }
                 mark = place.squares();

@@ -42,4 +42,9 @@ impl Random {
         let unit = (self.next() >> 11) as f64 / 9_007_199_254_740_992.0;
         2.0 * unit - 1.0
     }
+
+    /// A number below `count`, which is small and not 0.
+    pub fn below(&mut self, count: usize) -> usize {
+        (self.next() % count as u64) as usize
+    }
 }

@@ -4,8 +4,9 @@
 use footpoint::closest::{QueryOptions, Workspace};
 use footpoint::curve::Curve;
 use footpoint::index::IndexedCurve;
+use footpoint::weights::network::network;
 use footpoint::weights::refine::refine;
-use footpoint::weights::{Net, Options, Report, State, Wish};
+use footpoint::weights::{Net, Options, PoleReport, Report, State, Wish, flag};
 use std::time::Instant;
 
 /// SplitMix64.
@@ -87,92 +88,132 @@ pub fn wishes(
 pub struct Tally {
     pub curves: u64,
     pub met: u64,
-    pub reported: u64,
-    /// Said to be impossible although they are not, or said to be met although they are not.
+    /// Not met, and reported so.
+    pub missed: u64,
+    /// Of those, with a wish that was proven impossible.
+    pub proven: u64,
+    /// Said to be met or impossible although that is not true.
     pub wrong: u64,
-    pub starts: u64,
-    pub slowest_ms: f64,
-    pub total_ms: f64,
-    pub ten_poles_ms: f64,
-    pub ten_poles: u64,
+    /// Milliseconds of each curve, and of those with ten poles.
+    pub times: Vec<f64>,
+    pub times_of_ten: Vec<f64>,
 }
 
-/// Whether a report tells the truth about a curve whose wishes exist: measured anew.
-pub fn is_true(report: &Report, size: f64) -> bool {
+impl Tally {
+    fn count(&mut self, poles: usize, report: &Report, milliseconds: f64, is_true: bool) {
+        self.curves += 1;
+        self.met += u64::from(report.is_met());
+        self.missed += u64::from(!report.is_met());
+        let impossible = |pole: &PoleReport| pole.state == State::Impossible as u32;
+        self.proven += u64::from(report.poles.iter().any(impossible));
+        self.wrong += u64::from(!is_true);
+        self.times.push(milliseconds);
+        if poles == 10 {
+            self.times_of_ten.push(milliseconds);
+        }
+    }
+
+    pub fn show(&mut self, name: &str) {
+        let Self { curves, met, missed, proven, wrong, .. } = *self;
+        println!(
+            "{name}: {curves} curves, {met} met, {missed} reported as not met, {proven} with a proof, {wrong} wrong"
+        );
+        for (what, times) in [("all", &mut self.times), ("10 poles", &mut self.times_of_ten)] {
+            times.sort_by(f64::total_cmp);
+            let at =
+                |share: f64| times.get((share * times.len() as f64) as usize).unwrap_or(&f64::NAN);
+            let (half, most, last) = (at(0.5), at(0.99), times.last().unwrap_or(&f64::NAN));
+            println!("  {what}: median {half:.2} ms, 99 % {most:.1} ms, slowest {last:.0} ms");
+        }
+    }
+}
+
+/// Whether a report tells the truth, by distances measured anew: what is met is met, and wishes that exist are not impossible.
+fn is_true(report: &Report, size: f64, exist: bool) -> bool {
     let curve = IndexedCurve::new(report.curve().unwrap().clone());
     report.poles.iter().enumerate().all(|(k, pole)| {
-        let measured = distance(&curve, curve.curve().poles()[k]);
-        let off = (measured - pole.wish).abs();
+        let off = (distance(&curve, curve.curve().poles()[k]) - pole.wish).abs();
         let met = pole.state == State::Met as u32;
-        pole.wish.is_nan()
-            || (pole.state != State::Impossible as u32 && (!met || off <= 1.1e-9 * size))
+        let impossible = pole.state == State::Impossible as u32;
+        pole.wish.is_nan() || (!(exist && impossible) && (!met || off <= 1.1e-9 * size))
     })
 }
 
-pub fn refine_many(seed: u64, count: u64) -> Tally {
+/// Refines wishes that exist, each polygon from its own random numbers.
+pub fn feasible(seed: u64, count: u64) -> Tally {
+    run(seed, count, |random, polygon| (wishes(random, polygon), true))
+}
+
+/// Refines wishes that do not exist: farther from an inner pole than the ends of the curve are, or two that differ by more than
+/// their poles are apart. The others are such as exist.
+pub fn infeasible(seed: u64, count: u64) -> Tally {
+    run(seed, count, |random, polygon| {
+        let poles = &polygon.2;
+        let gap = |a: usize, b: usize| {
+            (0..3).map(|x| (poles[a][x] - poles[b][x]).powi(2)).sum::<f64>().sqrt()
+        };
+        let mut list = wishes(random, polygon);
+        let i = random.below(list.len());
+        let pole = list[i].pole;
+        if list.len() > 1 && random.below(2) == 0 {
+            let other = list[(i + 1) % list.len()];
+            list[i].distance =
+                other.distance + (1.001 + 0.1 * random.unit()) * gap(pole, other.pole);
+        } else {
+            let most = gap(pole, 0).min(gap(pole, poles.len() - 1));
+            list[i].distance = (1.001 + 0.1 * random.unit()) * most;
+        }
+        (list, false)
+    })
+}
+
+type Polygon = (Vec<f64>, usize, Vec<[f64; 3]>);
+
+fn run(seed: u64, count: u64, wish: impl Fn(&mut Random, &Polygon) -> (Vec<Wish>, bool)) -> Tally {
     let mut tally = Tally::default();
     for i in 0..count {
-        if let Ok(only) = std::env::var("ONLY")
-            && !only.split(',').any(|x| x == i.to_string())
-        {
-            continue;
-        }
         let mut random = Random(seed.wrapping_mul(1 << 40).wrapping_add(i << 8));
         let polygon = polygon(&mut random);
-        let wishes = wishes(&mut random, &polygon);
+        let (wishes, exist) = wish(&mut random, &polygon);
         let curve = Curve::new(&polygon.0, polygon.1, &polygon.2, None).unwrap();
         let net = Net::Curve(&curve);
         let start = Instant::now();
-        let report = refine(
-            net,
-            &wishes,
-            &[],
-            &Options {
-                starts: std::env::var("STARTS").ok().and_then(|x| x.parse().ok()).unwrap_or(0),
-                ..Options::default()
-            },
-            &mut || false,
-        )
-        .unwrap();
-        let ms = 1e3 * start.elapsed().as_secs_f64();
-        tally.curves += 1;
-        tally.total_ms += ms;
-        tally.slowest_ms = tally.slowest_ms.max(ms);
-        tally.starts += u64::from(report.starts);
-        if polygon.2.len() == 10 {
-            tally.ten_poles += 1;
-            tally.ten_poles_ms += ms;
-        }
-        if report.is_met() {
-            tally.met += 1
-        } else {
-            tally.reported += 1
-        }
-        if !is_true(&report, net.diagonal()) {
-            tally.wrong += 1;
-        }
-        if !report.is_met() && std::env::var_os("SHOW").is_some() {
-            for (k, p) in report.poles.iter().enumerate() {
-                if !p.wish.is_nan() {
-                    println!(
-                        "   {k} w {:.4} wish {:.6} got {:.9} off {:.1e} u {:.5} lb {:.1e}",
-                        p.weight,
-                        p.wish,
-                        p.distance,
-                        p.distance - p.wish,
-                        p.u,
-                        p.distance - p.lower_bound
-                    );
-                }
-            }
-            println!(
-                "{i}: {} poles degree {} wishes {} starts {}",
-                polygon.2.len(),
-                polygon.1,
-                wishes.len(),
-                report.starts
-            );
-        }
+        let report = refine(net, &wishes, &[], &Options::default(), &mut || false).unwrap();
+        let milliseconds = 1e3 * start.elapsed().as_secs_f64();
+        let is_true = is_true(&report, net.diagonal(), exist) && (exist || !report.is_met());
+        tally.count(polygon.2.len(), &report, milliseconds, is_true);
     }
     tally
+}
+
+/// A network over a random polygon: weights within the range by the formula, and the same bits again.
+pub fn check_network(seed: u64) {
+    let mut random = Random(seed << 20);
+    let (knots, degree, poles) = polygon(&mut random);
+    let curve = Curve::new(&knots, degree, &poles, None).unwrap();
+    let least = 0.1 + random.unit();
+    let range = [least, least + 0.1 + 3.0 * random.unit()];
+    let within = |random: &mut Random| range[0] + (range[1] - range[0]) * random.unit();
+    let wishes: Vec<Wish> = (1..poles.len() - 1)
+        .filter_map(|pole| {
+            (random.below(3) == 0).then(|| Wish { pole, distance: within(&mut random) })
+        })
+        .collect();
+    let options = Options { seed, ..Options::default() };
+    let report = network(&curve, &wishes, range, &options).unwrap();
+    let again = network(&curve, &wishes, range, &options).unwrap();
+    assert_eq!(report.weights(), again.weights());
+    assert!(report.iterations <= 100, "seed {seed}: {} steps", report.iterations);
+    for (k, pole) in report.poles.iter().enumerate() {
+        assert!((0.01..=100.0).contains(&pole.weight));
+        assert_eq!(pole.flags & flag::UNTRAINED, 0, "seed {seed}: pole {k}");
+        if pole.flags & (flag::LIMITED | flag::ON_CHORD) != 0 {
+            continue;
+        }
+        let distance = pole.chord_distance / (1.0 + pole.weight);
+        let slack = 1e-12 * pole.chord_distance;
+        let low = if pole.wish.is_nan() { range[0] } else { pole.wish } - slack;
+        let high = if pole.wish.is_nan() { range[1] } else { pole.wish } + slack;
+        assert!((low..=high).contains(&distance), "seed {seed}: pole {k}: {pole:?}");
+    }
 }
