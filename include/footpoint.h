@@ -301,7 +301,8 @@ typedef enum fpt_weights_state {
      */
     FPT_WISH_NOT_MET = 2,
     /**
-     * Proven: no weights in the range meet it.
+     * Proven: no weights in the range meet it, or not together with another wish, from which it differs by more than their poles are
+     * apart.
      */
     FPT_WISH_IMPOSSIBLE = 3,
 } fpt_weights_state;

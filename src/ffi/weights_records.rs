@@ -16,7 +16,8 @@ pub enum fpt_weights_state {
     FPT_WISH_MET = 1,
     /// It is not met, or that could not be proven. The weights are the best found.
     FPT_WISH_NOT_MET = 2,
-    /// Proven: no weights in the range meet it.
+    /// Proven: no weights in the range meet it, or not together with another wish, from which it differs by more than their poles are
+    /// apart.
     FPT_WISH_IMPOSSIBLE = 3,
 }
 

@@ -19,13 +19,16 @@ use super::rows::{Problem, Target, Tools};
 use super::solve::{Bounds, Place};
 use super::start::{Random, first};
 use super::{COINCIDENT, Constraint, Options, Wish, chord, invalid, wished};
-use crate::bounds::{Vector, norm, scaled};
+use crate::bounds::{Vector, norm, scaled, sub};
 use crate::error::Error;
 use crate::index::Poll;
 use crate::knots::MAX_MAGNITUDE;
 
 /// Most starts by default.
 pub const DEFAULT_STARTS: u32 = 2_000;
+
+/// Most starts when not all can be met: it is only the best that is looked for.
+const STARTS_WITHOUT_HOPE: u32 = 60;
 
 /// So many starts from anywhere that all end as well as the best one, within [`SAME`] of its squared misses, end the search.
 const ENOUGH: u32 = 30;
@@ -61,11 +64,17 @@ pub fn refine(
     let mut poles: Vec<PoleReport> =
         each.map(|(wish, length)| first(*wish, *length, COINCIDENT * diagonal, range)).collect();
     let ends = judge(&net, &mut poles, range, tolerance);
+    let hopeless = contradict(&net, &mut poles, tolerance);
+    let mut options = *options;
+    if hopeless {
+        let starts = if options.starts > 0 { options.starts } else { DEFAULT_STARTS };
+        options.starts = starts.min(STARTS_WITHOUT_HOPE);
+    }
     let (problem, bounds) =
         posed(net, &poles, &ends, &targets, range, tolerance, options.symmetric);
     let mut search =
         Search { problem: &problem, bounds: &bounds, tools: Tools::default(), tolerance };
-    let (weights, starts) = search.run(&poles, options, poll)?;
+    let (weights, starts) = search.run(&poles, &options, poll)?;
     let shapes = search.tools.shapes;
     let weights = problem.spread(&weights);
     let mut report = Report::measured(&net, &weights, poles, tolerance, range)?;
@@ -150,6 +159,24 @@ fn judge(net: &Net, poles: &mut [PoleReport], range: [f64; 2], tolerance: f64) -
         pole.state = State::Impossible as u32;
     }
     ends
+}
+
+/// Marks wishes that contradict each other: the distances of two poles from anything differ by no more than the poles are apart.
+/// True when there are any. They stay in the search, whose best then lies between them.
+fn contradict(net: &Net, poles: &mut [PoleReport], tolerance: f64) -> bool {
+    let wishes: Vec<usize> = (0..poles.len()).filter(|&k| !poles[k].wish.is_nan()).collect();
+    let mut any = false;
+    for (i, &a) in wishes.iter().enumerate() {
+        for &b in &wishes[..i] {
+            let apart = norm(sub(net.poles()[a], net.poles()[b]));
+            if (poles[a].wish - poles[b].wish).abs() > apart * (1.0 + 1e-14) + 2.0 * tolerance {
+                poles[a].state = State::Impossible as u32;
+                poles[b].state = State::Impossible as u32;
+                any = true;
+            }
+        }
+    }
+    any
 }
 
 /// The equations, and where the variables should be.

@@ -19,7 +19,8 @@ pub enum State {
     Met = 1,
     /// It is not met, or that could not be proven.
     NotMet = 2,
-    /// Proven: no weights in the range meet it.
+    /// Proven: no weights in the range meet it, or not together with another wish, from which it differs by more than their poles are
+    /// apart.
     Impossible = 3,
 }
 
