@@ -837,7 +837,8 @@ typedef struct fpt_weights_options {
      */
     double ratio_limit;
     /**
-     * Length, finite, >= 0: how far a distance may be from its wish. 0: 1e-9 x the diagonal of the poles' box.
+     * Length, finite, >= 0: how far a distance may be from its wish. 0: 1e-9 x the diagonal of the poles' box. Less than about 1e-11 of
+     * it cannot be proven.
      */
     double tolerance;
     /**

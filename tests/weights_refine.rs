@@ -267,6 +267,29 @@ fn bad_wishes_and_constraints_are_named() {
 }
 
 #[test]
+fn numbers_far_beyond_the_polygon_are_answered() {
+    let options = Options { starts: 3, ..Options::default() };
+    let tiny = bezier(&[[0.; 3], [1e-60, 1e-60, 0.], [2e-60, 0., 0.]], None);
+    let far = with(&tiny, &[wish(1, 1e-61)], &[Constraint::Point([1e100, 0.0, 0.0])], &options);
+    assert!(!far.is_met() && far.weights().len() == 3);
+    let huge = bezier(&[[0.; 3], [1e99, 1e99, 0.], [2e99, 0., 0.]], None);
+    let met = with(&huge, &[wish(1, 4e98)], &[], &Options::default());
+    assert!(met.is_met(), "{met:?}");
+    let beyond = with(&arch(), &[wish(1, 1e300)], &[], &options);
+    assert_eq!(beyond.poles[1].state, State::Impossible as u32);
+}
+
+#[test]
+fn contradicting_wishes_are_proven_so() {
+    // Poles 1 and 3 are less than 6.1 apart: no point is 6.2 nearer to one than to the other.
+    let report = with(&arch(), &[wish(1, 0.1), wish(3, 6.3)], &[], &Options::default());
+    assert_eq!(report.poles[3].state, State::Impossible as u32);
+    // Poles 1 and 2 of the gate are 4.5 apart.
+    let report = with(&gate(), &[wish(1, 0.2), wish(2, 4.8)], &[], &Options::default());
+    assert!(report.poles[1..3].iter().all(|pole| pole.state == State::Impossible as u32));
+}
+
+#[test]
 fn a_search_may_be_stopped() {
     let stopped =
         refine(Net::Curve(&arch()), &[wish(1, 1.0)], &[], &Options::default(), &mut || true);

@@ -164,7 +164,8 @@ pub struct fpt_weights_options {
     pub weight_max: f64,
     /// Greatest weight over least weight, >= 1; 0: no limit but that of the two above.
     pub ratio_limit: f64,
-    /// Length, finite, >= 0: how far a distance may be from its wish. 0: 1e-9 x the diagonal of the poles' box.
+    /// Length, finite, >= 0: how far a distance may be from its wish. 0: 1e-9 x the diagonal of the poles' box. Less than about 1e-11 of
+    /// it cannot be proven.
     pub tolerance: f64,
     /// 1: refinement keeps the weights of opposite poles equal (of a surface in both directions); 0: not.
     pub symmetric: u32,

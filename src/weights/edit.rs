@@ -52,7 +52,7 @@ fn check_pole(curve: &Curve, k: usize) -> Result<(), Error> {
 /// The weight times a factor, if the library takes it.
 fn multiplied(curve: &Curve, k: usize, factor: f64) -> Result<f64, Error> {
     let weight = curve.weights().map_or(1.0, |weights| weights[k]) * factor;
-    if weight >= 1.0 / MAX_MAGNITUDE && weight <= MAX_MAGNITUDE {
+    if (1.0 / MAX_MAGNITUDE..=MAX_MAGNITUDE).contains(&weight) {
         return Ok(weight);
     }
     invalid(format!(

@@ -10,7 +10,7 @@
 //! ```
 //!
 //! Reference: Piegl, Tiller, *The NURBS Book*, 2nd ed., sections 4.2 and 5.2.
-//! Limits: a denominator that comes within rounding of 0 is not decided after [`MOST_ROUNDS`]; pairs of zeros of numerator and
+//! Limits: a denominator that comes within rounding of 0 is not decided after 30 halvings; pairs of zeros of numerator and
 //! denominator are not divided out.
 
 use super::invalid;

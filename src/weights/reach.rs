@@ -18,14 +18,15 @@
 
 use super::net::{Net, Share};
 use crate::bezier::extraction;
-use crate::bounds::{Vector, add, dot, norm, scaled, sub};
+use crate::bounds::{Aabb, Vector, add, dot, norm, scaled, sub};
 use crate::knots::Knots;
 
 /// What bounds are loosened by, relative to the largest coordinate of the net and to its diagonal.
 const SLACK: f64 = 1e-13;
 
-/// Parameters looked at in each span, and parts that a span is cut into.
+/// Parts that a span is cut into; fewer on surfaces, so that there are not more than some [`MOST_PIECES`].
 const PARTS: usize = 8;
+const MOST_PIECES: usize = 10_000;
 
 /// Steps towards the point of a hull that is nearest to a pole.
 const HULL_STEPS: usize = 30;
@@ -33,6 +34,7 @@ const HULL_STEPS: usize = 30;
 /// A part of the domain: its local poles and a bound of each one's basis function there.
 struct Piece {
     greatest: Vec<Share>,
+    bounds: Aabb,
 }
 
 /// Bounds of distances over all weights in a range.
@@ -47,21 +49,24 @@ pub struct Reach<'a> {
 impl<'a> Reach<'a> {
     pub fn new(net: Net<'a>, range: [f64; 2]) -> Self {
         let [u, v] = net.knots();
-        let (parts_u, parts_v) = (u.map(parts).unwrap_or_default(), v.map(parts));
+        let spans = |knots: Option<&Knots>| knots.map_or(1, |knots| knots.spans().count());
+        let fits = |cuts: &usize| v.is_none() || spans(u) * spans(v) * cuts * cuts <= MOST_PIECES;
+        let cuts = [PARTS, PARTS / 2, PARTS / 4].into_iter().find(fits).unwrap_or(1);
         let (mut pieces, width) = (Vec::new(), net.width());
-        for a in &parts_u {
+        let parts_v = v.map(|knots| parts(knots, cuts));
+        for a in u.map(|knots| parts(knots, cuts)).unwrap_or_default() {
             let Some(parts_v) = &parts_v else {
-                pieces.push(Piece { greatest: a.clone() });
+                pieces.push(Piece::new(&net, a));
                 continue;
             };
             for b in parts_v {
                 let pair = |&(i, n): &Share| b.iter().map(move |&(j, m)| (i * width + j, n * m));
-                pieces.push(Piece { greatest: a.iter().flat_map(pair).collect() });
+                pieces.push(Piece::new(&net, a.iter().flat_map(pair).collect()));
             }
         }
         let mut places = Vec::new();
-        for u in u.map(parameters).unwrap_or_default() {
-            for v in v.map_or(vec![0.0], parameters) {
+        for u in u.map(|knots| parameters(knots, cuts)).unwrap_or_default() {
+            for v in v.map_or(vec![0.0], |knots| parameters(knots, cuts)) {
                 let mut shares = Vec::new();
                 net.shares([u, v], &mut shares);
                 places.push(shares);
@@ -95,8 +100,14 @@ impl<'a> Reach<'a> {
 
     /// No weights of the range give a lesser distance from pole `k`.
     pub fn least(&self, k: usize) -> f64 {
-        let each = self.pieces.iter().map(|piece| self.nearest(k, piece));
-        (each.fold(f64::INFINITY, f64::min) - self.slack).max(0.0)
+        let mut least = f64::INFINITY;
+        for piece in &self.pieces {
+            // A box beyond what is known already cannot hold less.
+            if piece.from_box(self.net.poles()[k]) * (1.0 - 1e-14) < least {
+                least = least.min(self.nearest(k, piece));
+            }
+        }
+        (least - self.slack).max(0.0)
     }
 
     fn nearest(&self, k: usize, piece: &Piece) -> f64 {
@@ -110,6 +121,21 @@ impl<'a> Reach<'a> {
         let others = piece.greatest.iter().filter(|(j, _)| *j != k);
         let away: Vec<Vector> = others.map(|(j, _)| sub(poles[*j], poles[k])).collect();
         share * separation(&away)
+    }
+}
+
+impl Piece {
+    fn new(net: &Net, greatest: Vec<Share>) -> Self {
+        let mut bounds = Aabb::EMPTY;
+        greatest.iter().for_each(|(j, _)| bounds.include(net.poles()[*j]));
+        Self { greatest, bounds }
+    }
+
+    /// The distance of a point from the box of the local poles.
+    fn from_box(&self, point: Vector) -> f64 {
+        let Aabb { low, high } = self.bounds;
+        let beyond = |axis: usize| (low[axis] - point[axis]).max(point[axis] - high[axis]).max(0.0);
+        norm([beyond(0), beyond(1), beyond(2)])
     }
 }
 
@@ -143,24 +169,24 @@ fn separation(points: &[Vector]) -> f64 {
 }
 
 /// Parameters at which distances are bounded: the ends of the spans and some between.
-fn parameters(knots: &Knots) -> Vec<f64> {
+fn parameters(knots: &Knots, cuts: usize) -> Vec<f64> {
     let mut out = Vec::new();
     for span in knots.spans() {
         let (a, b) = (knots.values()[span], knots.values()[span + 1]);
-        out.extend((0..PARTS).map(|i| a + (b - a) * (i as f64 / PARTS as f64)));
+        out.extend((0..cuts).map(|i| a + (b - a) * (i as f64 / cuts as f64)));
     }
     out.push(knots.domain().1);
     out
 }
 
 /// The parts of all spans, each with a bound of the basis functions on it: the greatest Bernstein coefficient.
-fn parts(knots: &Knots) -> Vec<Vec<Share>> {
+fn parts(knots: &Knots, cuts: usize) -> Vec<Vec<Share>> {
     let (p, mut out) = (knots.degree(), Vec::new());
     let mut matrix = vec![0.0; (p + 1) * (p + 1)];
     for span in knots.spans() {
         let (a, b) = (knots.values()[span], knots.values()[span + 1]);
-        let at = |i: usize| if i == PARTS { b } else { a + (b - a) * (i as f64 / PARTS as f64) };
-        for i in 0..PARTS {
+        let at = |i: usize| if i == cuts { b } else { a + (b - a) * (i as f64 / cuts as f64) };
+        for i in 0..cuts {
             if at(i) < at(i + 1) {
                 extraction(knots, span, [at(i), at(i + 1)], &mut matrix);
                 let column = |j: usize| matrix.iter().skip(j).step_by(p + 1);

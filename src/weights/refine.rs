@@ -41,6 +41,9 @@ const SAME: f64 = 0.02;
 /// Share of the tolerance within which a search must end: the rest is for the proof.
 const INNER: f64 = 0.25;
 
+/// Most numbers in the matrices of one step: 512 MiB.
+const MOST_ENTRIES: usize = 1 << 26;
+
 /// Steps by cross ratios before a start.
 const RATIO_STEPS: usize = 12;
 
@@ -76,6 +79,7 @@ pub fn refine(
     }
     let (problem, bounds) =
         posed(net, &poles, &ends, &targets, range, tolerance, options.symmetric);
+    check_size(&problem)?;
     let mut search =
         Search { problem: &problem, bounds: &bounds, tools: Tools::default(), tolerance };
     let (weights, starts) = search.run(&poles, &options, poll)?;
@@ -168,7 +172,9 @@ fn judge(net: &Net, poles: &mut [PoleReport], range: [f64; 2], tolerance: f64) -
 /// Marks wishes that contradict each other: the distances of two poles from anything differ by no more than the poles are apart.
 /// True when there are any. They stay in the search, whose best then lies between them.
 fn contradict(net: &Net, poles: &mut [PoleReport], tolerance: f64) -> bool {
-    let wishes: Vec<usize> = (0..poles.len()).filter(|&k| !poles[k].wish.is_nan()).collect();
+    let is_open =
+        |k: &usize| !poles[*k].wish.is_nan() && poles[*k].state != State::Impossible as u32;
+    let wishes: Vec<usize> = (0..poles.len()).filter(is_open).collect();
     let mut any = false;
     for (i, &a) in wishes.iter().enumerate() {
         for &b in &wishes[..i] {
@@ -220,6 +226,17 @@ fn posed<'a>(
     (problem, Bounds { range, targets: wanted })
 }
 
+/// Refuses more equations than dense matrices are for.
+fn check_size(problem: &Problem) -> Result<(), Error> {
+    let rows = problem.wishes.len() + 3 * problem.targets.len();
+    if rows.saturating_mul(rows + problem.variables) <= MOST_ENTRIES {
+        return Ok(());
+    }
+    let text =
+        format!("wish_count: {rows} equations for {} weights are too many", problem.variables);
+    Err(Error::Unsupported(text))
+}
+
 /// The starts and what came of them.
 struct Search<'a> {
     problem: &'a Problem<'a>,
@@ -266,7 +283,7 @@ impl Search<'_> {
                 } else if place.squares() < before * (1.0 + SAME) && !is_around(number) {
                     hits += 1;
                 }
-                if place.squares() < before {
+                if best.is_none() || place.squares() < before {
                     best = Some(place);
                 }
             }
@@ -362,7 +379,7 @@ impl Search<'_> {
 
 /// Whether a start begins around the best weights so far: every other one behind the first.
 fn is_around(number: u32) -> bool {
-    number > 2 && number % 2 == 0
+    number > 2 && number.is_multiple_of(2)
 }
 
 /// Whether a search stays in the moderate range.

@@ -82,7 +82,7 @@ impl Bounds {
     /// The squared distance from the preferences.
     pub fn cost(&self, weights: &[f64]) -> f64 {
         let each = self.targets.iter().zip(weights);
-        each.filter_map(|(target, w)| target.map(|t| height(w / t).powi(2))).sum()
+        each.filter_map(|(target, w)| target.map(|t| height(w / t))).map(|x| x * x).sum()
     }
 
     /// The same in a range that is half as wide in logarithms: extreme weights are where searches get stuck.

@@ -194,11 +194,12 @@ pub fn check_network(seed: u64) {
     let least = 0.1 + random.unit();
     let range = [least, least + 0.1 + 3.0 * random.unit()];
     let within = |random: &mut Random| range[0] + (range[1] - range[0]) * random.unit();
-    let wishes: Vec<Wish> = (1..poles.len() - 1)
-        .filter_map(|pole| {
-            (random.below(3) == 0).then(|| Wish { pole, distance: within(&mut random) })
-        })
-        .collect();
+    let mut wishes = Vec::new();
+    for pole in 1..poles.len() - 1 {
+        if random.below(3) == 0 {
+            wishes.push(Wish { pole, distance: within(&mut random) });
+        }
+    }
     let options = Options { seed, ..Options::default() };
     let report = network(&curve, &wishes, range, &options).unwrap();
     let again = network(&curve, &wishes, range, &options).unwrap();
