@@ -88,6 +88,13 @@ fn random_wishes_that_exist_are_met_and_none_is_silently_off() {
 }
 
 #[test]
+fn wishes_that_may_exist_are_answered_with_the_truth() {
+    let mut tally = polygons::wild(13, 12);
+    tally.show("wishes that may exist");
+    assert_eq!(tally.wrong, 0);
+}
+
+#[test]
 fn wishes_that_do_not_exist_are_never_met() {
     let mut tally = polygons::infeasible(12, 60);
     tally.show("wishes that do not exist");
@@ -354,4 +361,40 @@ fn a_surface_passes_through_points_and_keeps_symmetric_weights() {
     let tangent = [Constraint::TangentKept(0.5)];
     let refused = refine(net, &[], &tangent, &Options::default(), &mut || false).unwrap_err();
     assert!(matches!(refused, Error::Unsupported(_)));
+}
+
+#[test]
+fn a_proof_of_impossibility_of_a_surface_holds_for_every_sampled_weight() {
+    let (surface, options) = (
+        hills(None),
+        Options { weight_min: 0.2, weight_max: 5.0, starts: 1, ..Options::default() },
+    );
+    let mut random = polygons::Random(21);
+    let mut sampled = vec![[f64::MAX, 0.0_f64]; 30];
+    for _ in 0..60 {
+        let weights: Vec<f64> = (0..30).map(|_| 5_f64.powf(2.0 * random.unit() - 1.0)).collect();
+        let fitted = IndexedSurface::new(hills(Some(&weights)));
+        for (k, range) in sampled.iter_mut().enumerate() {
+            let query = surface.poles()[k];
+            let options = QueryOptions::default();
+            let d = fitted.closest(query, None, &options, &mut Workspace::default(), None).distance;
+            *range = [range[0].min(d), range[1].max(d)];
+        }
+    }
+    let mut proofs = 0;
+    for (k, [least, greatest]) in sampled.into_iter().enumerate() {
+        for wanted in [0.5 * least, greatest + 0.5, greatest + 3.0, greatest + 9.0] {
+            let report =
+                refine(Net::Surface(&surface), &[wish(k, wanted)], &[], &options, &mut || false)
+                    .unwrap();
+            proofs += usize::from(report.poles[k].state == State::Impossible as u32);
+        }
+        for wanted in [least, 0.5 * (least + greatest), greatest] {
+            let report =
+                refine(Net::Surface(&surface), &[wish(k, wanted)], &[], &options, &mut || false)
+                    .unwrap();
+            assert_ne!(report.poles[k].state, State::Impossible as u32, "pole {k}, {wanted}");
+        }
+    }
+    assert!(proofs > 20, "{proofs} of 120 proven");
 }

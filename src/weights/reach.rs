@@ -14,7 +14,7 @@
 //!
 //! `|Q - P_k|` is at least what any direction separates of the hull; the direction only has to be good, not exact.
 //!
-//! Rounding: every bound is loosened by [`SLACK`] of the net's size, far more than these few operations take.
+//! Rounding: `docs/rounding.md`, section 18.
 
 use super::net::{Net, Share};
 use crate::bezier::extraction;
@@ -22,7 +22,7 @@ use crate::bounds::{Aabb, Vector, add, dot, norm, scaled, sub};
 use crate::knots::Knots;
 
 /// What bounds are loosened by, relative to the largest coordinate of the net and to its diagonal.
-const SLACK: f64 = 1e-13;
+const SLACK: f64 = 1e-12;
 
 /// Parts that a span is cut into; fewer on surfaces, so that there are not more than some [`MOST_PIECES`].
 const PARTS: usize = 8;
@@ -103,7 +103,7 @@ impl<'a> Reach<'a> {
         let mut least = f64::INFINITY;
         for piece in &self.pieces {
             // A box beyond what is known already cannot hold less.
-            if piece.from_box(self.net.poles()[k]) * (1.0 - 1e-14) < least {
+            if piece.box_distance(self.net.poles()[k]) * (1.0 - 1e-14) < least {
                 least = least.min(self.nearest(k, piece));
             }
         }
@@ -132,7 +132,7 @@ impl Piece {
     }
 
     /// The distance of a point from the box of the local poles.
-    fn from_box(&self, point: Vector) -> f64 {
+    fn box_distance(&self, point: Vector) -> f64 {
         let Aabb { low, high } = self.bounds;
         let beyond = |axis: usize| (low[axis] - point[axis]).max(point[axis] - high[axis]).max(0.0);
         norm([beyond(0), beyond(1), beyond(2)])

@@ -141,7 +141,7 @@ fn is_true(report: &Report, size: f64, exist: bool) -> bool {
 
 /// Refines wishes that exist, each polygon from its own random numbers.
 pub fn feasible(seed: u64, count: u64) -> Tally {
-    run(seed, count, |random, polygon| (wishes(random, polygon), true))
+    run(seed, count, |random, polygon| (wishes(random, polygon), Some(true)))
 }
 
 /// Refines wishes that do not exist: farther from an inner pole than the ends of the curve are, or two that differ by more than
@@ -163,13 +163,26 @@ pub fn infeasible(seed: u64, count: u64) -> Tally {
             let most = gap(pole, 0).min(gap(pole, poles.len() - 1));
             list[i].distance = (1.001 + 0.1 * random.unit()) * most;
         }
-        (list, false)
+        (list, Some(false))
+    })
+}
+
+/// Refines wishes that may or may not exist: those of a curve, each changed by up to a factor.
+pub fn wild(seed: u64, count: u64) -> Tally {
+    run(seed, count, |random, polygon| {
+        let mut list = wishes(random, polygon);
+        list.iter_mut().for_each(|wish| wish.distance *= 0.5 + random.unit());
+        (list, None)
     })
 }
 
 type Polygon = (Vec<f64>, usize, Vec<[f64; 3]>);
 
-fn run(seed: u64, count: u64, wish: impl Fn(&mut Random, &Polygon) -> (Vec<Wish>, bool)) -> Tally {
+fn run(
+    seed: u64,
+    count: u64,
+    wish: impl Fn(&mut Random, &Polygon) -> (Vec<Wish>, Option<bool>),
+) -> Tally {
     let mut tally = Tally::default();
     for i in 0..count {
         let mut random = Random(seed.wrapping_mul(1 << 40).wrapping_add(i << 8));
@@ -180,7 +193,8 @@ fn run(seed: u64, count: u64, wish: impl Fn(&mut Random, &Polygon) -> (Vec<Wish>
         let start = Instant::now();
         let report = refine(net, &wishes, &[], &Options::default(), &mut || false).unwrap();
         let milliseconds = 1e3 * start.elapsed().as_secs_f64();
-        let is_true = is_true(&report, net.diagonal(), exist) && (exist || !report.is_met());
+        let is_true = is_true(&report, net.diagonal(), exist == Some(true))
+            && (exist != Some(false) || !report.is_met());
         tally.count(polygon.2.len(), &report, milliseconds, is_true);
     }
     tally
