@@ -44,7 +44,7 @@ pub fn normalised(weights: &[f64], unit: Unit) -> Result<Vec<f64>, Error> {
     let divisor = match unit {
         Unit::First => weights[0],
         Unit::Greatest => high,
-        Unit::Middle => low.sqrt() * high.sqrt(),
+        Unit::Middle => (low * high).sqrt(),
     };
     let out: Vec<f64> = weights.iter().map(|w| w / divisor).collect();
     checked(&out)?;
@@ -65,7 +65,7 @@ pub fn bounded(weights: &[f64], ratio: f64) -> Result<Vec<f64>, Error> {
         return Ok(weights.to_vec());
     }
     // Towards the middle by an ulp or two, so that the quotient holds after rounding.
-    let least = low.sqrt() * high.sqrt() / ratio.sqrt();
+    let least = (low * high / ratio).sqrt();
     let greatest = (least * ratio * (1.0 - 2.0 * f64::EPSILON)).max(least);
     Ok(weights.iter().map(|w| w.clamp(least, greatest)).collect())
 }

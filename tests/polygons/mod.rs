@@ -50,7 +50,7 @@ pub fn polygon(random: &mut Random) -> (Vec<f64>, usize, Vec<[f64; 3]>) {
     let inner = count - degree - 1;
     let even = random.below(2) == 0;
     let mut knots: Vec<f64> = (1..=inner)
-        .map(|i| if even { i as f64 / (inner + 1) as f64 } else { random.unit().clamp(0.01, 0.99) })
+        .map(|i| if even { i as f64 / (inner + 1) as f64 } else { 0.01 + 0.98 * random.unit() })
         .collect();
     knots.sort_by(f64::total_cmp);
     let mut full = vec![0.0; degree + 1];
