@@ -5,16 +5,19 @@ PREFIX ?= /usr/local
 JOBS   ?= $(shell nproc 2>/dev/null || echo 2)
 SEED    ?= 1
 QUERIES ?= 10000000
+WEIGHTS ?= 10000
 THREADS ?= $(JOBS)
 CASES   ?= ../shared/cases
 
-.PHONY: help build test test-rust test-c stress demo compare-occt bench bench-drivers bench-instructions install clean
+.PHONY: help build test test-rust test-c stress weights-stress demo demo-weights compare-occt bench bench-drivers bench-instructions install clean
 
 help:
 	@echo "make build             build the library, shared and static, into $(BUILD)/lib"
 	@echo "make test              run every test"
 	@echo "make stress            ask QUERIES=10000000 difficult queries, each checked; also SEED, THREADS"
+	@echo "make weights-stress    find weights for WEIGHTS=10000 random polygons with wishes, each checked (minutes); also SEED"
 	@echo "make demo              run the demonstration (a minute); pictures go to demo-out/"
+	@echo "make demo-weights      the part of it that finds weights from wished distances, with two figures"
 	@echo "make compare-occt      compare the extrema with OpenCASCADE 7.6 on the cases in $(CASES) (minutes)"
 	@echo "make bench             time against OpenCASCADE, SISL and CGAL on the cases in $(CASES) (ten minutes); tables and"
 	@echo "                       pictures go to bench-out/; BENCH_QUICK=1 takes a fifth of the cases (two minutes)"
@@ -71,7 +74,17 @@ test-c:
 stress:
 	$(CARGO) bench --locked --bench stress -- seed=$(SEED) queries=$(QUERIES) threads=$(THREADS) out=stress.txt
 
-demo:
+weights-stress:
+	$(CARGO) bench --locked --bench weights -- seed=$(SEED) count=$(WEIGHTS)
+
+demo-weights:
+	$(call need,cmake)
+	$(call configure,OFF)
+	cmake --build $(BUILD) -j $(JOBS) --target weights
+	mkdir -p demo-out
+	$(BUILD)/examples/weights demo-out
+
+demo: demo-weights
 	$(call need,cmake)
 	$(call configure,OFF)
 	cmake --build $(BUILD) -j $(JOBS)
