@@ -124,7 +124,8 @@ class Feet(np.ndarray):
     @property
     def uv(self) -> np.ndarray:
         """Both parameters, shape (..., 2): a view, not a copy."""
-        return np.ndarray((*self.shape, 2), np.float64, buffer=self, strides=(*self.strides, 8)) if self.size else np.empty((*self.shape, 2))
+        u = np.asarray(self._field("u"))
+        return np.lib.stride_tricks.as_strided(u, (*u.shape, 2), (*u.strides, 8))
 
     @property
     def point(self) -> np.ndarray:

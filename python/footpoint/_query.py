@@ -83,7 +83,7 @@ def array(name: str, values: Any, shape: tuple[int | None, ...] | None = None, d
     if np.dtype(dtype).kind == "u" and result.size and result.dtype != dtype:
         if result.min() < 0 or result.max() > np.iinfo(dtype).max:
             raise ValueError(f"{name}: a number is not between 0 and {np.iinfo(dtype).max}")
-    return np.ascontiguousarray(result, dtype)
+    return np.ascontiguousarray(result, dtype).reshape(result.shape)
 
 
 def vector(name: str, values: Any, length: int = 3) -> np.ndarray:
