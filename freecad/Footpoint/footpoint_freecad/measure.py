@@ -48,7 +48,7 @@ class PartTarget:
                 raise NotImplementedError(f"Face{number + 1} is a {type(self.faces[number].Surface).__name__}: no NURBS, and not in maps yet")
         self.trims = [Trims(face) for face in self.faces]
         self.surfaces = footpoint.Scene([native.shape for native in self.natives]) if self.faces else None
-        curves = [footpoint.from_freecad(edge) for edge in self.edges]
+        curves = [native_of_edge(edge).shape for edge in self.edges]
         self.curves = footpoint.Scene(curves) if curves else None
         self.turned = np.array([face.Orientation == "Reversed" for face in self.faces], bool)
         self.solids = list(shape.Solids)
@@ -67,10 +67,11 @@ class PartTarget:
             none = np.full(len(points), -1)
             return Nearest(feet.point.copy(), feet.distance.copy(), feet.lower_bound.copy(), none, feet.distance.copy(), feet.proven)
         feet, members = self.surfaces.closest(points, progress=progress, **watch)
-        normals, signed, _ = self.surfaces.normals(feet, members, points)
+        _, signed, sides = self.surfaces.normals(feet, members, points)
         face = np.where(members == library().NO_MEMBER, -1, members.astype(np.int64))
         found = Nearest(feet.point.copy(), feet.distance.copy(), feet.lower_bound.copy(), face, np.where(self.turned[face], -signed, signed), feet.proven)
         outside = ~self._inside(feet.uv, face)
+        outside |= (sides & library().NormalFlag.AMBIGUOUS_SIDE) != 0  # a foot on a border: the faces that meet there tell the side
         outside &= face >= 0
         if outside.any() and self.curves is not None:
             self._beyond(points, np.flatnonzero(outside), found, watch)
@@ -81,7 +82,7 @@ class PartTarget:
         for number, (native, trim) in enumerate(zip(self.natives, self.trims)):
             mine = np.flatnonzero(face == number)
             if len(mine):
-                inside[mine] = True if trim.everything else trim.inside(native.to_native(uv[mine]))
+                inside[mine] = trim.inside(native.to_native(uv[mine]))
         return inside
 
     def _beyond(self, points: np.ndarray, rows: np.ndarray, found: Nearest, watch: dict) -> None:
@@ -98,7 +99,7 @@ class PartTarget:
             local = native.shape.closest(asked[may], **watch)
             inside = trim.inside(native.to_native(local.uv))
             _, sides, _ = native.shape.normals(local, asked[may])
-            better = inside & (local.distance < best[may])
+            better = inside & (local.distance < best[may] * (1 - 1e-12))
             at = may[better]
             best[at], place[at], face[at] = local.distance[better], local.point[better], number
             signed[at] = -sides[better] if self.turned[number] else sides[better]
@@ -165,6 +166,18 @@ def native_of_face(face: Any) -> Any:
             surface.segment(*(float(end) for end in ends))
             return footpoint.convert.native_freecad(surface)
     return footpoint.convert.native_freecad(face)
+
+
+def native_of_edge(edge: Any) -> Any:
+    """The NURBS form of an edge: of its curve the part that it uses."""
+    footpoint = library()
+    curve = edge.Curve
+    ends = edge.ParameterRange
+    if type(curve).__name__ in ("BSplineCurve", "BezierCurve") and tuple(ends) != (curve.FirstParameter, curve.LastParameter):
+        curve = curve.copy()
+        curve.segment(*ends)
+        return footpoint.convert.native_freecad(curve)
+    return footpoint.convert.native_freecad(edge)
 
 
 @dataclass

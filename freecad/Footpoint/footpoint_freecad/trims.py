@@ -21,6 +21,9 @@ class Trims:
         self._face = face
         u0, u1, v0, v1 = face.ParameterRange
         self._low, self._size = np.array([u0, v0]), np.array([u1 - u0, v1 - v0])
+        surface = face.Surface
+        turns = [surface.UPeriod() if surface.isUPeriodic() else 0.0, surface.VPeriod() if surface.isVPeriodic() else 0.0]
+        self._turns = np.array(turns) / self._size
         loops = [self._loop(wire) for wire in face.Wires]
         #: FreeCAD is asked for each point when the wires do not close in (u, v).
         self._closed = all(loop is not None for loop in loops)
@@ -49,11 +52,14 @@ class Trims:
 
     def inside(self, uv: np.ndarray) -> np.ndarray:
         """Whether FreeCAD's parameters (n, 2) belong to the face, (n,) bool."""
+        at = (uv - self._low) / self._size
+        for k, turn in enumerate(self._turns):
+            if turn:
+                at[:, k] = np.where((at[:, k] < -1e-9) | (at[:, k] > 1 + 1e-9), np.mod(at[:, k], turn), at[:, k])
         if self.everything:
-            return np.ones(len(uv), bool)
+            return ((at >= -1e-9) & (at <= 1 + 1e-9)).all(1)
         if not self._closed:
             return np.array([self._face.isPartOfDomain(float(u), float(v)) for u, v in uv], bool)
-        at = (uv - self._low) / self._size
         inside = np.zeros(len(at), bool)
         row = np.clip((at[:, 1] * ROWS).astype(int), 0, ROWS - 1)
         order = np.argsort(row, kind="stable")
