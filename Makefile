@@ -8,7 +8,7 @@ QUERIES ?= 10000000
 THREADS ?= $(JOBS)
 CASES   ?= ../shared/cases
 
-.PHONY: help build test test-rust test-c stress demo compare-occt bench bench-drivers bench-instructions install clean
+.PHONY: help build test test-rust test-c test-python test-freecad stress demo compare-occt bench bench-drivers bench-instructions install clean
 
 help:
 	@echo "make build             build the library, shared and static, into $(BUILD)/lib"
@@ -49,7 +49,7 @@ build:
 	$(call configure,OFF)
 	cmake --build $(BUILD) --target footpoint_library
 
-test: test-rust test-c
+test: test-rust test-c test-python test-freecad
 
 # rustfmt and clippy are no part of a minimal Rust installation: their checks say so and are left out there.
 test-rust:
@@ -66,6 +66,13 @@ test-c:
 	$(call configure,ON)
 	cmake --build $(BUILD) -j $(JOBS)
 	cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
+
+# Both say in one line what they leave out.
+test-python:
+	@mkdir -p $(BUILD) && CARGO="$(CARGO)" python/tests/run.sh "$(abspath $(BUILD))"
+
+test-freecad:
+	@mkdir -p $(BUILD) && CARGO="$(CARGO)" freecad/Footpoint/tests/run.sh "$(abspath $(BUILD))"
 
 # Ten million take a quarter of an hour on two cores. The exit code says whether anything was wrong.
 stress:

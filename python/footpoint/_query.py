@@ -10,6 +10,7 @@ import ctypes
 import operator
 import struct
 import threading
+import time
 from functools import partial
 from typing import TYPE_CHECKING, Any, Callable, TypedDict
 
@@ -35,7 +36,7 @@ class QueryOptions(TypedDict, total=False):
     threads      0: all cores
     budget       most nodes and subdivisions per query; 0: the default
     should_stop  called without arguments now and then; a true result ends the call with `Cancelled`
-    progress     True: a tqdm bar; or a function of (done, total)
+    progress     True: a tqdm bar; or a function of (done, total), called at most fifty times a second and at the end
     trace        a function of (query, step, u, v, residual), told each iteration; forces one thread
     """
 
@@ -136,14 +137,15 @@ class _Heard:
 def _polling(heard: _Heard, should_stop: Callable[[], object] | None, progress: Callable[[int, int], object] | None):
     """Answers should_stop. A generator, since Python raises KeyboardInterrupt where it resumes: here that is inside `try`, at the
     start of a function it would be before."""
-    stop = 0
+    stop, told = 0, 0.0
     while True:
         try:
             while True:
                 yield stop
                 if should_stop is not None and should_stop():
                     stop = 1
-                if progress is not None:
+                if progress is not None and time.monotonic() - told > 0.02:
+                    told = time.monotonic()
                     done, total = heard.done()
                     if total:
                         progress(done, total)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import time
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from typing import Any, Callable
 
@@ -67,7 +69,7 @@ class PartTarget:
             none = np.full(len(points), -1)
             return Nearest(feet.point.copy(), feet.distance.copy(), feet.lower_bound.copy(), none, feet.distance.copy(), feet.proven)
         feet, members = self.surfaces.closest(points, progress=progress, **watch)
-        _, signed, sides = self.surfaces.normals(feet, members, points)
+        signed, sides = self._sides(feet, members, points)
         face = np.where(members == library().NO_MEMBER, -1, members.astype(np.int64))
         found = Nearest(feet.point.copy(), feet.distance.copy(), feet.lower_bound.copy(), face, np.where(self.turned[face], -signed, signed), feet.proven)
         outside = ~self._inside(feet.uv, face)
@@ -76,6 +78,14 @@ class PartTarget:
         if outside.any() and self.curves is not None:
             self._beyond(points, np.flatnonzero(outside), found, watch)
         return found
+
+    def _sides(self, feet: Any, members: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Signed distances and flags, on all cores: a call of normals takes one, and lets Python go on meanwhile."""
+        cores = os.cpu_count() or 1
+        parts = [slice(len(feet) * k // cores, len(feet) * (k + 1) // cores) for k in range(cores)]
+        with ThreadPoolExecutor(cores) as pool:
+            found = list(pool.map(lambda part: self.surfaces.normals(feet[part], members[part], points[part])[1:], parts))
+        return np.concatenate([one[0] for one in found]), np.concatenate([one[1] for one in found])
 
     def _inside(self, uv: np.ndarray, face: np.ndarray) -> np.ndarray:
         inside = np.zeros(len(face), bool)
