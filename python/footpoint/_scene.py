@@ -9,8 +9,9 @@ import numpy as np
 
 from . import _library as lib
 from ._feet import Feet
+from ._handle import Handle
 from ._query import Call, Points, address, array, integer
-from ._shapes import Curve, Handle, Surface, asked_of, records_of
+from ._shapes import Curve, Surface, asked_of, records_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

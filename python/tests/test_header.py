@@ -6,7 +6,7 @@ from enum import Enum
 
 import numpy as np
 import pytest
-from shapes import ROOT, circle, cloud, cylinder, hill
+from shapes import ROOT, circle, cloud, cylinder
 
 import footpoint
 from footpoint import _feet, _library

@@ -4,7 +4,6 @@ Writes gui.txt there: one line a check, the last "done".
 """
 
 import os
-import sys
 import time
 import traceback
 

@@ -60,7 +60,7 @@ def around(shape, count, seed=3):
 
 def test_parameters_beside_freecad():
     """Ours is never farther than FreeCAD's; where FreeCAD's is farther or fails, the table counts it."""
-    print(f"{'face':12} {'farther':>8} {'failed':>7} {'outside':>8} {'ours farther':>13} {'not proven':>11} {'FreeCAD us':>11} {'ours, one by one':>17} {'ours, batch':>12}")
+    print(f"{'face':12} {'farther':>8} {'failed':>7} {'outside':>8} {'by a hair':>10} {'ours farther':>13} {'not proven':>11} {'FreeCAD us':>11} {'ours, one by one':>17} {'ours, batch':>12}")
     for name, face in ten_faces().items():
         surface, points = face.Surface, around(face, 1000)
         size = face.BoundBox.DiagonalLength
@@ -85,10 +85,13 @@ def test_parameters_beside_freecad():
         bounds = face.ParameterRange
         distance = np.array([(surface.value(*map(float, pair)) - point).Length for pair, point in zip(uv, vectors)])
         other = np.array([(surface.value(*pair) - point).Length if pair else np.inf for pair, point in zip(theirs, vectors)])
-        within = np.array([pair is not None and bounds[0] - 1e-9 <= pair[0] <= bounds[1] + 1e-9 and bounds[2] - 1e-9 <= pair[1] <= bounds[3] + 1e-9 for pair in theirs])
+        low, high = np.array(bounds[0::2]), np.array(bounds[1::2])
+        given = np.array([pair if pair else (np.nan, np.nan) for pair in theirs])
+        beyond = (np.maximum(low - given, given - high) / (high - low)).max(1)
+        within, hair = beyond <= 1e-7, (beyond > 0) & (beyond <= 1e-7)
         farther = np.isfinite(other) & (other > distance + 1e-6 * size)
         worse = within & (distance > other + 1e-9 * size)
-        print(f"{name:12} {farther.sum():8} {failed:7} {(~within).sum() - failed:8} {worse.sum():13} {(~feet.proven).sum():11} {freecad * 1e3:11.1f} {single * 1e3:17.1f} {batch * 1e3:12.2f}")
+        print(f"{name:12} {farther.sum():8} {failed:7} {(~within).sum() - failed:8} {hair.sum():10} {worse.sum():13} {(~feet.proven).sum():11} {freecad * 1e3:11.1f} {single * 1e3:17.1f} {batch * 1e3:12.2f}")
         assert not worse.any() and feet.proven.all()
         assert np.abs(distance - feet.distance).max() < 1e-9 * size
         mine = parameters.parameter(face, vectors[0])
