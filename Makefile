@@ -12,7 +12,7 @@ CASES   ?= ../shared/cases
 
 help:
 	@echo "make build             build the library, shared and static, into $(BUILD)/lib"
-	@echo "make test              run every test"
+	@echo "make test              run every test; also test-rust, test-c, test-python, test-freecad"
 	@echo "make stress            ask QUERIES=10000000 difficult queries, each checked; also SEED, THREADS"
 	@echo "make demo              run the demonstration (a minute); pictures go to demo-out/"
 	@echo "make compare-occt      compare the extrema with OpenCASCADE 7.6 on the cases in $(CASES) (minutes)"

@@ -161,7 +161,7 @@ class Deviation(_Command):
         if found is None:
             return
         target[0].Document.openTransaction("Deviation")
-        made = objects.make_deviation(*target, found)
+        made = objects.make_deviation(*target, found, getattr(source, "Points", None))
         target[0].Document.commitTransaction()
         Legend.show_for(found, made.Label)
 

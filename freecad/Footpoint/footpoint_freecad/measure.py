@@ -327,7 +327,7 @@ def points_of(thing: Any) -> np.ndarray:
 
         return np.array([(p.x, p.y, p.z) for p in Mesh.Mesh(thing).Points])
     if hasattr(thing, "Points"):
-        return np.array([tuple(point) for point in thing.Points.Points])
+        return np.array([(p.x, p.y, p.z) for p in thing.Points.Points]).reshape(-1, 3)
     if hasattr(thing, "Mesh"):
         return np.array([(p.x, p.y, p.z) for p in thing.Mesh.Points])
     raise TypeError("points: a point cloud, a mesh or a file is needed")

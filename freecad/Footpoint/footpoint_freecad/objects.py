@@ -120,13 +120,14 @@ def make(kind, name, source, sub="", query=None):
     return obj
 
 
-def make_deviation(source, sub, found):
-    """Adds a deviation map: coloured points, statistics."""
+def make_deviation(source, sub, found, cloud=None):
+    """Adds a deviation map: coloured points, statistics. `cloud` has the same points for FreeCAD; None: it is made."""
     import Points
 
     document = source.Document
-    cloud = Points.Points()
-    cloud.addPoints([FreeCAD.Vector(*row) for row in found.points.tolist()])
+    if cloud is None:
+        cloud = Points.Points()
+        cloud.addPoints([FreeCAD.Vector(*row) for row in found.points.tolist()])
     obj = document.addObject("Points::FeatureCustom", "Deviation")
     obj.Points = cloud
     obj.addProperty("App::PropertyColorList", "Color", "Footpoint", "Colours of the points")
