@@ -115,8 +115,13 @@ def make(kind, name, source, sub="", query=None):
         from . import views
 
         views.show(obj)
+    try:
+        kind.execute(obj.Proxy, obj)
+    except Exception:
+        document.removeObject(obj.Name)
+        raise
+    obj.purgeTouched()
     group(document).addObject(obj)
-    document.recompute([obj])
     return obj
 
 

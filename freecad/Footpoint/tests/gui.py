@@ -15,6 +15,8 @@ from PySide import QtCore, QtGui
 
 OUT = os.environ["FOOTPOINT_OUT"]
 COUNT = int(os.environ.get("FOOTPOINT_POINTS", "20000"))
+from footpoint_freecad import commands, settings
+
 V = FreeCAD.Vector
 log = open(os.path.join(OUT, "gui.txt"), "w")
 
@@ -88,6 +90,8 @@ def scan(shape, count):
 def steps():
     document = FreeCAD.newDocument("Demo")
     Gui.activateWorkbench("FootpointWorkbench")
+    page = Gui.PySideUic.loadUi(settings.resource("ui", "preferences.ui"))
+    check("the preferences page loads", page.findChild(QtGui.QDoubleSpinBox, "tolerance") is not None)
     yield
     source = document.addObject("Part::Feature", "Bracket")
     source.Shape = part()
@@ -106,6 +110,11 @@ def steps():
     check("invert: in the tree", found in document.getObject("Footpoint").Group)
     yield
     Gui.Selection.clearSelection()
+    told = []
+    plain, commands.say = commands.say, told.append
+    press("Footpoint_Check")
+    check("seams: says what to select", told == ["Select a face."])
+    commands.say = plain
     Gui.Selection.addSelection(document.Name, "Ball", "Face1")
     press("Footpoint_Check")
     found = document.getObject("Seams")
@@ -154,8 +163,6 @@ def steps():
     legend.save_picture(os.path.join(OUT, "deviation.png"))
     check("deviation: CSV and picture are written", os.path.getsize(os.path.join(OUT, "deviation.csv")) > COUNT * 40 and os.path.getsize(os.path.join(OUT, "deviation.png")) > 10000)
     yield
-    from footpoint_freecad import commands
-
     def cancel():
         dialog = QtGui.QApplication.activeModalWidget()
         if isinstance(dialog, QtGui.QProgressDialog):

@@ -149,6 +149,12 @@ def test_objects():
     assert seams.ClosedU and not seams.ClosedV and len(seams.Collapsed) == 2 and not seams.Shape.isNull()
     near = objects.make(objects.ClosestResult, "Closest", ball, "", (0, 9, 0))
     assert near.Proven and abs(near.Distance - 5) < 1e-12 and abs(near.Shape.Length - 5) < 1e-12
+    count = len(document.Objects)
+    try:
+        objects.make(objects.InvertResult, "Invert", ball, "Vertex1", (1, 1, 1))
+        raise AssertionError("no error")
+    except TypeError as error:
+        assert "face" in str(error) and len(document.Objects) == count
     edge = objects.make(objects.InvertResult, "Invert", ball, "Edge2", (1, 1, 1))
     assert not edge.OnShape and len(edge.Parameters) == 1
     ball.Placement.Base = V(0, 2, 0)
