@@ -9,11 +9,11 @@ WEIGHTS ?= 10000
 THREADS ?= $(JOBS)
 CASES   ?= ../shared/cases
 
-.PHONY: help build test test-rust test-c stress weights-stress demo demo-weights compare-occt bench bench-drivers bench-instructions install clean
+.PHONY: help build test test-rust test-c test-python test-freecad stress weights-stress demo demo-weights compare-occt bench bench-drivers bench-instructions install clean
 
 help:
 	@echo "make build             build the library, shared and static, into $(BUILD)/lib"
-	@echo "make test              run every test"
+	@echo "make test              run every test; also test-rust, test-c, test-python, test-freecad"
 	@echo "make stress            ask QUERIES=10000000 difficult queries, each checked; also SEED, THREADS"
 	@echo "make weights-stress    find weights for WEIGHTS=10000 random polygons with wishes, each checked (minutes); also SEED"
 	@echo "make demo              run the demonstration (a minute); pictures go to demo-out/"
@@ -52,7 +52,7 @@ build:
 	$(call configure,OFF)
 	cmake --build $(BUILD) --target footpoint_library
 
-test: test-rust test-c
+test: test-rust test-c test-python test-freecad
 
 # rustfmt and clippy are no part of a minimal Rust installation: their checks say so and are left out there.
 test-rust:
@@ -69,6 +69,13 @@ test-c:
 	$(call configure,ON)
 	cmake --build $(BUILD) -j $(JOBS)
 	cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
+
+# Both say in one line what they leave out.
+test-python:
+	@mkdir -p $(BUILD) && CARGO="$(CARGO)" python/tests/run.sh "$(abspath $(BUILD))"
+
+test-freecad:
+	@mkdir -p $(BUILD) && CARGO="$(CARGO)" freecad/Footpoint/tests/run.sh "$(abspath $(BUILD))"
 
 # Ten million take a quarter of an hour on two cores. The exit code says whether anything was wrong.
 stress:
