@@ -299,13 +299,12 @@ impl Walk<'_, '_, '_> {
         }
         let (mut bound, mut place, mut weight) = self.least_ratio(at);
         let close = bound > self.proof.level_squared() && area.age > 0;
-        if area.age >= FRESH || close || self.proof.tying {
+        if area.age >= FRESH || close {
             if self.load(area, at) || self.is_beyond(area, at) {
                 return Verdict::Closed;
             }
             (bound, place, weight) = self.least_ratio(at);
-        } else if self.hard()
-            && area.age.is_multiple_of(TILT_EVERY)
+        } else if (self.proof.tying || self.hard() && area.age.is_multiple_of(TILT_EVERY))
             && self.cut_free(area).is_none()
         {
             return Verdict::Closed;
