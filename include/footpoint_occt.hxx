@@ -23,8 +23,8 @@
  * What the drop-in classes do otherwise than OCCT's own:
  *   - borders count: the nearest point exists for each query, on an edge or corner too. OCCT lists orthogonal projections only and
  *     has none where the nearest point is on a border;
- *   - the lists are complete or IsComplete() is false; nearest first; with borders, and with saddles. An arc or region of equally
- *     near points is one entry;
+ *   - the lists are complete or IsComplete() is false; nearest first; with borders, saddles, and the apex of a cone. An arc or
+ *     region of equally near points is one entry;
  *   - tolerances, precisions and Extrema_ExtAlgo change nothing: every answer is refined to the limit of the arithmetic;
  *   - Extrema() is missing: there is no Extrema_ExtPC or Extrema_ExtPS behind. IsProven(), LowerBound(), IsComplete() are new.
  */
@@ -234,15 +234,25 @@ inline profile arcs(const gp_XYZ &centre, const gp_XYZ &x, const gp_XYZ &y, cons
     return out;
 }
 
-/** vertex + u^2/(4 focal) x + u y. */
+/** vertex + u^2/(4 focal) x + u y, with knots that are closer where the curve is smaller, so that far ends do not cost accuracy. */
 inline profile parabola(const gp_XYZ &vertex, const gp_XYZ &x, const gp_XYZ &y, double focal, const range &used) {
+    std::vector<double> joints{used.low, used.high};
+    const auto add = [&](double u) {
+        if (u > used.low && u < used.high) joints.push_back(u);
+    };
+    add(0);
+    for (double u = focal; u < std::max(-used.low, used.high); u *= 4) add(u), add(-u);
+    std::sort(joints.begin(), joints.end());
     profile out;
     out.degree = 2;
-    const double a = used.low, b = used.high;
-    out.knots = {a, a, a, b, b, b};
-    for (const auto &[p, q] : {std::pair{a, a}, std::pair{a, b}, std::pair{b, b}})
+    out.knots.assign(2, used.low);
+    out.knots.insert(out.knots.end(), joints.begin(), joints.end());
+    out.knots.insert(out.knots.end(), 2, used.high);
+    for (std::size_t i = 0; i + 3 < out.knots.size(); i++) {
+        const double p = out.knots[i + 1], q = out.knots[i + 2];
         out.poles.push_back(vertex + x * (p * q / (4 * focal)) + y * ((p + q) / 2));
-    out.weights = {1, 1, 1};
+        out.weights.push_back(1);
+    }
     out.along.used = out.along.whole = used;
     return out;
 }
@@ -512,7 +522,7 @@ inline std::optional<net> net_of(const Handle(Geom_Surface) &surface, const rang
 /**
  * The parameters of an unbounded curve that can be feet of a point, turned about an axis by any angle where there is one.
  * Lines: (q - origin).direction. Conics: the roots of the condition of stationarity, bounded for all points as far from
- * the vertex (Fujiwara's bound of the cubic for the parabola).
+ * the vertex (Fujiwara's bound of the cubic for the parabola), and some room.
  */
 inline range feet_on(const Handle(Geom_Curve) &shape, const gp_Pnt &query, const gp_Ax1 *axis) {
     const Handle(Geom_Curve) curve = basis(shape);
@@ -537,10 +547,10 @@ inline range feet_on(const Handle(Geom_Curve) &shape, const gp_Pnt &query, const
     double reach = 0;
     if (auto c = Handle(Geom_Parabola)::DownCast(conic)) {
         const double f = c->Focal(), linear = 8 * f * f + 4 * f * far, constant = 8 * f * f * far;
-        reach = 2 * std::max(std::sqrt(linear), std::cbrt(constant));
+        reach = 2 * std::max(std::sqrt(linear), std::cbrt(constant)) + f;
     } else if (auto h = Handle(Geom_Hyperbola)::DownCast(conic)) {
         const double a = h->MajorRadius(), b = h->MinorRadius();
-        reach = std::asinh(far * (a + b) / (a * a + b * b));
+        reach = std::asinh(far * (a + b) / (a * a + b * b)) + 0.5;
     } else {
         refuse("a curve of this kind must be given a range");
     }
@@ -759,7 +769,7 @@ protected:
         for (gp_Pnt query : queries) {
             query.Transform(place_.Inverted());
             if (!detail::finite(query)) query = centre_;
-            const double away = query.Distance(centre_), room = away > 0 ? away : 1;
+            const double away = query.Distance(centre_);
             detail::range ranges[Directions], old[Directions];
             for (int k = 0; k < Directions; k++) ranges[k] = bounds_[k];
             needed(query, ranges);
@@ -772,7 +782,8 @@ protected:
             if (covered) continue;
             for (int k = 0; k < Directions; k++) {
                 if (detail::open(bounds_[k].low) || detail::open(bounds_[k].high))
-                    ranges[k] = detail::window(bounds_[k], ranges[k], shape_ ? &old[k] : nullptr, room);
+                    ranges[k] = detail::window(bounds_[k], ranges[k], shape_ ? &old[k] : nullptr,
+                                               curved_ ? 0.25 * (ranges[k].high - ranges[k].low) : away > 0 ? away : 1);
                 else
                     ranges[k] = bounds_[k];
             }
@@ -838,6 +849,8 @@ protected:
     gp_Trsf place_;
     /** A point of the shape before it is placed, from which windows are measured. */
     gp_Pnt centre_;
+    /** The open direction goes along a conic: its parameter is no length. */
+    bool curved_ = false;
     std::shared_ptr<const Shape> shape_;
     detail::direction along_[2];
 };
@@ -868,6 +881,7 @@ private:
         bounds_[0] = detail::common({shape->FirstParameter(), shape->LastParameter()}, part,
                                     is_periodic ? shape->Period() : 0, "U");
         if (is_open()) {
+            curved_ = base_->IsKind(STANDARD_TYPE(Geom_Conic));
             const detail::range &u = bounds_[0];
             centre_ = base_->Value(!detail::open(u.low) ? u.low : !detail::open(u.high) ? u.high : 0);
         }
@@ -960,6 +974,8 @@ private:
             period_[k] = all ? turn[k] : 0;
         }
         if (is_open()) {
+            const auto turned = detail::turned_of(base_);
+            curved_ = turned && detail::basis(turned->meridian)->IsKind(STANDARD_TYPE(Geom_Conic));
             const auto some = [](const detail::range &r) { return !detail::open(r.low) ? r.low : !detail::open(r.high) ? r.high : 0; };
             centre_ = base_->Value(some(bounds_[0]), some(bounds_[1]));
         }

@@ -94,8 +94,9 @@ void duel(const std::string &group, const char *method, Caller<Shape> theirs, Ca
             if (!answers[k][i].found) row.none[k]++;
             else if (distance[k] > truth + 1e-6 * size) row.wrong[k]++;
         }
-        // What footpoint answers is held to more: rounding of two evaluations.
-        if (!answers[1][i].found || distance[1] > truth + 1e-9 * size) {
+        // What footpoint answers is held to more: the rounding of two evaluations, which goes with the coordinates too.
+        const double rounding = 1e-9 * size + 1e-14 * points[i].XYZ().Modulus();
+        if (!answers[1][i].found || distance[1] > truth + rounding) {
             std::fprintf(stderr, "%s, %s: footpoint %.17g, nearer %.17g\n", group.c_str(), method, distance[1], truth);
             failures++;
         }
