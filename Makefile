@@ -80,6 +80,7 @@ test-c:
 	$(call want,pkg-config)
 	$(call want,abigail-tools)
 	$(call want,$(OCCT_PACKAGES))
+	$(call want,libocct-data-exchange-dev)
 	$(call want,libcgal-dev)
 	$(call want,libopenmesh-dev)
 	$(call want,libsisl-dev)

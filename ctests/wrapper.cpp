@@ -312,7 +312,7 @@ void scenes_are_those_of_the_c_api() {
     CHECK(found.members == std::vector<std::uint32_t>({0, 1, 2}));
     CHECK_NEAR(found.feet[0].distance, found.feet[1].distance, 1e-9);
     CHECK(scene.evaluate(1, found.feet[1].u, found.feet[1].v)[0] == found.feet[1].point[0]);
-    const footpoint::scene_feet single = scene.closest_f32({points.begin(), points.end()});
+    const footpoint::scene_feet single = scene.closest_f32(std::vector<float>(points.begin(), points.end()));
     for (std::size_t i = 0; i < 3; i++) CHECK(same(found.feet[i], single.feet[i]));
     const std::vector<float> near{300, 250, 90};
     CHECK(same(scene.shape_of(0).second.closest_f32(near)[0], scene.shape_of(0).second.closest({300, 250, 90})[0]));

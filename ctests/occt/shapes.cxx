@@ -26,7 +26,18 @@
 #include <gp_Circ.hxx>
 #include <gp_Elips.hxx>
 
+#ifdef WITH_STEP
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Message_Printer.hxx>
+#include <STEPControl_Reader.hxx>
+#include <STEPControl_Writer.hxx>
+
+#include <unistd.h>
+#endif
+
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 
 TopoDS_Shape bottle() {
@@ -117,15 +128,42 @@ TopoDS_Shape blade() {
     return skin.Shape();
 }
 
+namespace {
+
+TopoDS_Shape through_brep(const TopoDS_Shape &shape) {
+    std::stringstream file;
+    BRepTools::Write(shape, file);
+    TopoDS_Shape out;
+    BRepTools::Read(out, file, BRep_Builder());
+    return out;
+}
+
+#ifdef WITH_STEP
+TopoDS_Shape through_step(const TopoDS_Shape &shape) {
+    const std::string path = std::filesystem::temp_directory_path() / ("footpoint_test_" + std::to_string(getpid()) + ".step");
+    STEPControl_Writer writer;
+    writer.Transfer(shape, STEPControl_AsIs);
+    writer.Write(path.c_str());
+    STEPControl_Reader reader;
+    const bool read = reader.ReadFile(path.c_str()) == IFSelect_RetDone && reader.TransferRoots() > 0;
+    std::filesystem::remove(path);
+    if (!read) throw Standard_Failure("STEP: not read");
+    return reader.OneShape();
+}
+#endif
+
+} // namespace
+
 std::vector<std::pair<std::string, TopoDS_Shape>> real_shapes() {
+    const TopoDS_Shape made = bottle();
     std::vector<std::pair<std::string, TopoDS_Shape>> out = {
-        {"bottle", bottle()}, {"filleted block", filleted_block()}, {"loft", loft()}, {"sweep", sweep()}, {"blade", blade()}};
-    for (auto &[name, shape] : out) {
-        std::stringstream file;
-        BRepTools::Write(shape, file);
-        TopoDS_Shape read;
-        BRepTools::Read(read, file, BRep_Builder());
-        shape = read;
-    }
+        {"bottle", made}, {"filleted block", filleted_block()}, {"loft", loft()}, {"sweep", sweep()}, {"blade", blade()}};
+    for (auto &[name, shape] : out) shape = through_brep(shape);
+#ifdef WITH_STEP
+    // OCCT tells about its translation on the standard output.
+    Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));
+    out.emplace_back("bottle (STEP)", through_step(made));
+    out.emplace_back("sweep (STEP)", through_step(sweep()));
+#endif
     return out;
 }

@@ -19,7 +19,7 @@ TopoDS_Shape sweep();
 /** A propeller-like thin blade: a loft of thin profiles, whose sides are near to each other. */
 TopoDS_Shape blade();
 
-/** All of them, each written as BREP and read again. */
+/** All of them, each written as BREP and read again; some as STEP too where OCCT's data exchange is installed. */
 std::vector<std::pair<std::string, TopoDS_Shape>> real_shapes();
 
 #endif
