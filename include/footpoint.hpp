@@ -702,6 +702,12 @@ public:
                                   out.signed_distances.data(), out.flags.data()));
         return out;
     }
+    /** The unit normals alone, without sides. */
+    directions normals(span<const fpt_foot_point> feet) const {
+        directions out{std::vector<double>(3 * feet.size()), {}, std::vector<std::uint32_t>(feet.size())};
+        check(fpt_surface_normals(get(), nullptr, feet.data(), feet.size(), out.vectors.data(), nullptr, out.flags.data()));
+        return out;
+    }
     /** How far u and v may move while the point moves by the accuracy (0: the default), for each foot. */
     std::vector<double> uncertainty(span<const fpt_foot_point> feet, double accuracy = 0) const {
         std::vector<double> out(2 * feet.size());
@@ -813,6 +819,15 @@ public:
         return out;
     }
 
+    /** The point and its derivatives, as curve::evaluate and surface::evaluate. */
+    std::vector<double> evaluate(std::uint32_t member, double u, double v, std::uint32_t derivatives) const {
+        const std::size_t order = derivatives > 31 ? 0 : derivatives;
+        const bool is_curve = shape_of(member).first.get() != nullptr;
+        std::vector<double> out(3 * (order + 1) * (is_curve ? 2 : order + 2) / 2);
+        check(fpt_scene_evaluate(get(), member, u, v, derivatives, out.data()));
+        return out;
+    }
+
     /** Builds the search indexes now, on all cores. */
     void prepare() const { check(fpt_scene_prepare(get())); }
 
@@ -820,6 +835,12 @@ public:
     scene_feet closest(span<const double> points, const fpt_query_options &options = query_options(),
                        span<const std::uint32_t> hint_members = {}) const {
         return ask<double>(fpt_scene_closest, points, options, hint_members);
+    }
+    /** As fpt_scene_closest: the records stay with the caller, also when FPT_CANCELLED is thrown; hint_members and out_members may
+     *  be null. */
+    void closest(const double *points, std::size_t count, const fpt_query_options *options,
+                 const std::uint32_t *hint_members, fpt_foot_point *out, std::uint32_t *out_members) const {
+        check(fpt_scene_closest(get(), points, count, options, hint_members, out, out_members));
     }
     /** The same for points in single precision. */
     scene_feet closest_f32(span<const float> points, const fpt_query_options &options = query_options(),
@@ -837,6 +858,15 @@ public:
         return ask<float>(fpt_scene_invert_f32, points, options, hint_members);
     }
 
+    /** The unit normals alone, without sides. */
+    directions normals(const scene_feet &found) const {
+        const std::size_t count = found.feet.size();
+        detail::require(found.members.size() == count, "members: need one for each foot");
+        directions out{std::vector<double>(3 * count), {}, std::vector<std::uint32_t>(count)};
+        check(fpt_scene_normals(get(), nullptr, found.feet.data(), found.members.data(), count, out.vectors.data(),
+                                nullptr, out.flags.data()));
+        return out;
+    }
     /** The unit normal at each foot and the signed distance of its query; packed points x,y,z, one per foot. */
     directions normals(span<const double> points, const scene_feet &found) const {
         const std::size_t count = found.feet.size();
