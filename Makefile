@@ -5,17 +5,20 @@ PREFIX ?= /usr/local
 JOBS   ?= $(shell nproc 2>/dev/null || echo 2)
 SEED    ?= 1
 QUERIES ?= 10000000
+WEIGHTS ?= 10000
 THREADS ?= $(JOBS)
 CASES   ?= ../shared/cases
 OCCT_PACKAGES = libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev
 
-.PHONY: help build test test-rust test-c stress demo compare-occt bench bench-drivers bench-instructions install deb abi-baseline clean
+.PHONY: help build test test-rust test-c test-python test-freecad stress weights-stress demo demo-weights compare-occt bench bench-drivers bench-instructions install deb abi-baseline clean
 
 help:
 	@echo "make build             build the library, shared and static, into $(BUILD)/lib"
-	@echo "make test              run every test"
+	@echo "make test              run every test; also test-rust, test-c, test-python, test-freecad"
 	@echo "make stress            ask QUERIES=10000000 difficult queries, each checked; also SEED, THREADS"
+	@echo "make weights-stress    find weights for WEIGHTS=10000 random polygons with wishes, each checked (minutes); also SEED"
 	@echo "make demo              run the demonstration (a minute); pictures go to demo-out/"
+	@echo "make demo-weights      the part of it that finds weights from wished distances, with two figures"
 	@echo "make compare-occt      compare the extrema with OpenCASCADE 7.6 on the cases in $(CASES) (minutes)"
 	@echo "make bench             time against OpenCASCADE, SISL and CGAL on the cases in $(CASES) (ten minutes); tables and"
 	@echo "                       pictures go to bench-out/; BENCH_QUICK=1 takes a fifth of the cases (two minutes)"
@@ -63,7 +66,7 @@ build:
 	$(call configure,OFF)
 	cmake --build $(BUILD) --target footpoint_library
 
-test: test-rust test-c
+test: test-rust test-c test-python test-freecad
 
 # rustfmt and clippy are no part of a minimal Rust installation: their checks say so and are left out there.
 test-rust:
@@ -88,11 +91,28 @@ test-c:
 	cmake --build $(BUILD) -j $(JOBS)
 	cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
 
+# Both say in one line what they leave out.
+test-python:
+	@mkdir -p $(BUILD) && CARGO="$(CARGO)" python/tests/run.sh "$(abspath $(BUILD))"
+
+test-freecad:
+	@mkdir -p $(BUILD) && CARGO="$(CARGO)" freecad/Footpoint/tests/run.sh "$(abspath $(BUILD))"
+
 # Ten million take a quarter of an hour on two cores. The exit code says whether anything was wrong.
 stress:
 	$(CARGO) bench --locked --bench stress -- seed=$(SEED) queries=$(QUERIES) threads=$(THREADS) out=stress.txt
 
-demo:
+weights-stress:
+	$(CARGO) bench --locked --bench weights -- seed=$(SEED) count=$(WEIGHTS)
+
+demo-weights:
+	$(call need,cmake)
+	$(call configure,OFF)
+	cmake --build $(BUILD) -j $(JOBS) --target weights
+	mkdir -p demo-out
+	$(BUILD)/examples/weights demo-out
+
+demo: demo-weights
 	$(call need,cmake)
 	$(call configure,OFF)
 	cmake --build $(BUILD) -j $(JOBS)

@@ -421,6 +421,34 @@ void misuse_throws() {
     CHECK(answers > 1000 && refusals > 1000);
 }
 
+void weights_are_those_of_the_c_api() {
+    const footpoint::curve corner(2, {0, 0, 0, 1, 1, 1}, {1, 0, 0, 1, 1, 0, 0, 1, 0});
+    const double half = std::sqrt(0.5);
+    const auto report = footpoint::weights_report::refine(corner, {{1, std::sqrt(2.0) - 1}});
+    CHECK(report.size() == 3 && report.is_met());
+    CHECK_NEAR(report.weights()[1], half, 1e-12);
+    CHECK(report[1].state == FPT_WISH_MET && report.summary().met == 1);
+    CHECK_NEAR(footpoint::conic({1, 0, 0, 1, 1, 0, 0, 1, 0}, {1, report.weights()[1], 1}).eccentricity, 0, 1e-6);
+    CHECK(report.as_curve().is_rational());
+    CHECK_NEAR(footpoint::weights_report::general(corner, {0.5, 0.25, 0.5}).weights()[1], 3, 1e-14);
+    CHECK_NEAR(footpoint::weights_report::interpolated(corner, 0.2, 0.2).weights()[1], half / 0.2 - 1, 1e-12);
+    CHECK_NEAR(footpoint::weights_report::network(corner, {{1, 0.2}}, 0.1, 0.3).weights()[1], half / 0.2 - 1, 1e-12);
+    fpt_weights_constraint at{};
+    at.kind = FPT_CONSTRAINT_POINT;
+    at.vector[0] = at.vector[1] = 0.8;
+    CHECK(footpoint::weights_report::refine(corner, {}, {at}).constraint(0).met == 1);
+    const auto edit = footpoint::weight_through_point(corner, 1, {0.8, 0.8, 0});
+    CHECK(edit.foot.distance < 1e-12 && edit.weight > 1);
+    CHECK_NEAR(footpoint::move_point(corner, 0.5, 1, std::sqrt(2.0) * 0.05), edit.weight, 1e-12);
+    CHECK_NEAR(footpoint::weight_of_rho(0.5), 1, 0);
+    CHECK(footpoint::weights_of_eccentricity({1, 0, 0, 1, 1, 0, 0, 1, 0}, 1).size() == 1);
+    CHECK(footpoint::normalised_weights({2, 4}, FPT_UNIT_FIRST)[1] == 2);
+    CHECK(footpoint::bounded_weights({1, 9}, 1)[0] == footpoint::bounded_weights({1, 9}, 1)[1]);
+    CHECK(footpoint::standard_form(report.as_curve()).weights()[2] == 1);
+    const auto rest = footpoint::positive_form(2, {0, 0, 0, 1, 1, 1}, {1, 0, 0, 1, -half, -half, 0, -half, 0, 1, 0, 1});
+    CHECK(rest.weights()[1] > 0);
+}
+
 void versions_agree() {
     CHECK(footpoint::version() == FPT_VERSION && footpoint::abi_version() == FPT_ABI_VERSION);
 }
@@ -443,6 +471,7 @@ int main() {
     RUN(arrays_of_all_kinds_are_spans);
     RUN(normals_without_sides_and_derivatives_in_scenes);
     RUN(misuse_throws);
+    RUN(weights_are_those_of_the_c_api);
     RUN(versions_agree);
     return check_report("wrapper");
 }

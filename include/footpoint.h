@@ -285,6 +285,91 @@ typedef enum fpt_path_change {
 } fpt_path_change;
 
 /**
+ * What came of a wish, for fpt_weights_pole.state.
+ */
+typedef enum fpt_weights_state {
+    /**
+     * There was none.
+     */
+    FPT_WISH_NONE = 0,
+    /**
+     * Proven: the distance is the wished one within the tolerance.
+     */
+    FPT_WISH_MET = 1,
+    /**
+     * It is not met, or that could not be proven. The weights are the best found.
+     */
+    FPT_WISH_NOT_MET = 2,
+    /**
+     * Proven: no weights in the range meet it, or not together with another wish, from which it differs by more than their poles are
+     * apart.
+     */
+    FPT_WISH_IMPOSSIBLE = 3,
+} fpt_weights_state;
+
+/**
+ * Bits of fpt_weights_pole.flags.
+ */
+typedef enum fpt_weights_flag {
+    /**
+     * The pole lies on its chord (an end of a clamped curve does): formula (3) says nothing, its weight is 1.
+     */
+    FPT_WEIGHT_ON_CHORD = 1,
+    /**
+     * Formula (3) gave a weight outside the range, or a wish beyond the chord none: the nearest end of the range was taken.
+     */
+    FPT_WEIGHT_LIMITED = 2,
+    /**
+     * The weight is an end of the range.
+     */
+    FPT_WEIGHT_AT_LIMIT = 4,
+    /**
+     * The steps of a network ran out before this pole was as wished; the nearest weight that is was taken.
+     */
+    FPT_WEIGHT_UNTRAINED = 8,
+} fpt_weights_flag;
+
+/**
+ * What a constraint asks, for fpt_weights_constraint.kind.
+ */
+typedef enum fpt_weights_constraint_kind {
+    /**
+     * The point at (u,v) is `vector`.
+     */
+    FPT_CONSTRAINT_POINT_AT = 0,
+    /**
+     * Some point is `vector`.
+     */
+    FPT_CONSTRAINT_POINT = 1,
+    /**
+     * The tangent of the curve at u has the direction `vector`, of any length but 0.
+     */
+    FPT_CONSTRAINT_TANGENT_AT = 2,
+    /**
+     * The tangent of the curve at u has the direction that it has with the given weights.
+     */
+    FPT_CONSTRAINT_TANGENT_KEPT = 3,
+} fpt_weights_constraint_kind;
+
+/**
+ * What is 1 after fpt_weights_normalise.
+ */
+typedef enum fpt_weights_unit {
+    /**
+     * The first weight.
+     */
+    FPT_UNIT_FIRST = 0,
+    /**
+     * The greatest weight.
+     */
+    FPT_UNIT_GREATEST = 1,
+    /**
+     * The product of least and greatest weight.
+     */
+    FPT_UNIT_MIDDLE = 2,
+} fpt_weights_unit;
+
+/**
  * A curve. Immutable: any number of threads may use one at a time. The search index is built on first
  * use, by one thread while the others wait. Made by fpt_curve_new or fpt_curve_from_callback, owned by the
  * caller, released by fpt_curve_free. A curve from a callback has no degree, knots, poles and weights:
@@ -312,6 +397,12 @@ typedef struct fpt_scene fpt_scene;
  * weights: functions that need them return FPT_UNSUPPORTED.
  */
 typedef struct fpt_surface fpt_surface;
+
+/**
+ * What a method found: weights, and for each pole what was wished and what was achieved. Immutable, owned by the caller, released
+ * by fpt_weights_report_free; it does not refer to the shape that it came from.
+ */
+typedef struct fpt_weights_report fpt_weights_report;
 
 /**
  * What a call returns: FPT_OK (0) or one of the other numbers of fpt_status_code. Never renumbered.
@@ -723,6 +814,213 @@ typedef struct fpt_scene_data {
      */
     const struct fpt_scene_member *members;
 } fpt_scene_data;
+
+/**
+ * How to look for weights. Fill it with fpt_weights_options_init, then change what matters. All zero after struct_size is the
+ * default of everything. Grows at the end only.
+ */
+typedef struct fpt_weights_options {
+    /**
+     * sizeof(fpt_weights_options), set by fpt_weights_options_init.
+     */
+    size_t struct_size;
+    /**
+     * Least weight, 1e-12 to 1e12; 0: 0.01.
+     */
+    double weight_min;
+    /**
+     * Greatest weight, 1e-12 to 1e12; 0: 100.
+     */
+    double weight_max;
+    /**
+     * Greatest weight over least weight, >= 1; 0: no limit but that of the two above.
+     */
+    double ratio_limit;
+    /**
+     * Length, finite, >= 0: how far a distance may be from its wish. 0: 1e-9 x the diagonal of the poles' box. Less than about 1e-11 of
+     * it cannot be proven.
+     */
+    double tolerance;
+    /**
+     * 1: refinement keeps the weights of opposite poles equal (of a surface in both directions); 0: not.
+     */
+    uint32_t symmetric;
+    /**
+     * Most training steps of a network; 0: 1,000.
+     */
+    uint32_t steps;
+    /**
+     * Most searches of a refinement; 0: 2,000. One or a few are enough when the wishes exist; each takes 0.1 ms to 1 ms for a curve.
+     */
+    uint32_t starts;
+    /**
+     * Must be 0.
+     */
+    uint32_t reserved;
+    /**
+     * Seed of the random numbers of networks and of starts. Equal inputs and seeds give equal bits.
+     */
+    uint64_t seed;
+    /**
+     * Asked on the calling thread before each search of a refinement; non-zero ends the call with FPT_CANCELLED. NULL: never.
+     */
+    int (*should_stop)(void *user);
+    /**
+     * Handed to should_stop as it is.
+     */
+    void *user;
+} fpt_weights_options;
+
+/**
+ * What a shape must do besides. 48 bytes, frozen.
+ */
+typedef struct fpt_weights_constraint {
+    /**
+     * A value of fpt_weights_constraint_kind.
+     */
+    uint32_t kind;
+    /**
+     * Must be 0.
+     */
+    uint32_t reserved;
+    /**
+     * In the domain; not looked at by FPT_CONSTRAINT_POINT.
+     */
+    double u;
+    /**
+     * In the domain; not looked at by FPT_CONSTRAINT_POINT and for curves.
+     */
+    double v;
+    /**
+     * A point or direction; not looked at by FPT_CONSTRAINT_TANGENT_KEPT.
+     */
+    double vector[3];
+} fpt_weights_constraint;
+
+/**
+ * One pole's part of a report: 72 bytes, frozen.
+ */
+typedef struct fpt_weights_pole {
+    /**
+     * The distance asked for; NaN: none.
+     */
+    double wish;
+    /**
+     * L of formula (3): the distance of the pole from its chord; of a surface, from where the middle of its support would be
+     * without the pole.
+     */
+    double chord_distance;
+    /**
+     * The weight of formula (3), within the range; 1 without a wish.
+     */
+    double first_guess;
+    /**
+     * The weight found.
+     */
+    double weight;
+    /**
+     * Distance of the pole from the shape with the weights found.
+     */
+    double distance;
+    /**
+     * Proven: nothing on that shape is nearer to the pole than this.
+     */
+    double lower_bound;
+    /**
+     * First parameter of the nearest point.
+     */
+    double u;
+    /**
+     * Second parameter; 0 on a curve.
+     */
+    double v;
+    /**
+     * A value of fpt_weights_state.
+     */
+    uint32_t state;
+    /**
+     * Sum of fpt_weights_flag values.
+     */
+    uint32_t flags;
+} fpt_weights_pole;
+
+/**
+ * What came of a constraint: 32 bytes, frozen.
+ */
+typedef struct fpt_weights_outcome {
+    /**
+     * Distance from the point, or sine of the angle between tangent and direction (2: the opposite direction).
+     */
+    double error;
+    /**
+     * Where on the shape.
+     */
+    double u;
+    /**
+     * Second parameter; 0 on a curve.
+     */
+    double v;
+    /**
+     * 1: within the tolerance, of a direction within 1e-9; 0: not.
+     */
+    uint32_t met;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} fpt_weights_outcome;
+
+/**
+ * A report in a few numbers: 48 bytes, frozen.
+ */
+typedef struct fpt_weights_summary {
+    /**
+     * The length within which a distance is the wished one.
+     */
+    double tolerance;
+    /**
+     * Training steps of a network, shapes that a refinement measured; 0 for a formula.
+     */
+    uint64_t iterations;
+    /**
+     * Searches that a refinement began.
+     */
+    uint32_t starts;
+    /**
+     * 1: every wish and every constraint is met.
+     */
+    uint32_t is_met;
+    /**
+     * Wishes met.
+     */
+    uint64_t met;
+    /**
+     * Wishes not met, those that are impossible not counted.
+     */
+    uint64_t not_met;
+    /**
+     * Wishes proven impossible.
+     */
+    uint64_t impossible;
+} fpt_weights_summary;
+
+/**
+ * A conic over three poles: 24 bytes, frozen.
+ */
+typedef struct fpt_weights_conic_shape {
+    /**
+     * The middle weight when both end weights are 1.
+     */
+    double weight;
+    /**
+     * The share of the way from the middle of the chord to the middle pole that the curve goes: weight / (1 + weight).
+     */
+    double rho;
+    /**
+     * 0 circle, less than 1 ellipse, 1 parabola, more hyperbola; near 0 good to about 1e-8.
+     */
+    double eccentricity;
+} fpt_weights_conic_shape;
 
 #ifdef __cplusplus
 extern "C" {
@@ -1971,6 +2269,334 @@ fpt_status fpt_scene_normals(const struct fpt_scene *scene,
                              double *out_normals,
                              double *out_signed,
                              uint32_t *out_flags);
+
+/**
+ * Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.
+ * Does nothing when `options` is NULL or struct_size is smaller than a size_t.
+ * @since 0.1
+ */
+void fpt_weights_options_init(struct fpt_weights_options *options, size_t struct_size);
+
+/**
+ * The general formula: each pole's weight is 1/lambda - 1 for the relative distance lambda of the curve from it.
+ *
+ * lambda is distance over chord distance, the chord being the segment between the two points of the curve where the pole's basis
+ * function begins and ends (of one span: from the first to the last point; of a closed curve of one span: that point). A pole on
+ * its chord, like the ends of a clamped curve, has weight 1 and no wish. The wish in the report is lambda x the chord distance; a formula
+ * does not meet it exactly.
+ *
+ * @param lambdas       one a pole, each between 0 and 1, both excluded; the error names the first that is not
+ * @param lambda_count  the number of poles
+ * @param options       range of the weights and tolerance count; NULL: the defaults
+ * @param out           the report; release it with fpt_weights_report_free
+ * @return FPT_INVALID_ARGUMENT also for a pole that coincides with its neighbour, FPT_UNSUPPORTED for a curve from a callback
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_weights_general(const struct fpt_curve *curve,
+                               const double *lambdas,
+                               size_t lambda_count,
+                               const struct fpt_weights_options *options,
+                               struct fpt_weights_report **out);
+
+/**
+ * Linear interpolation: distances run evenly, in the order of the poles, from first_distance to last_distance; weights as
+ * fpt_weights_general. The run may rise, fall or stay. A distance that is not less than that of the chord, or whose weight is outside
+ * the range, takes the nearest weight of the range (FPT_WEIGHT_LIMITED).
+ *
+ * @param first_distance  of the first pole, finite, >= 0
+ * @param last_distance   of the last pole, finite, >= 0
+ * @param options         range of the weights and tolerance count; NULL: the defaults
+ * @param out             the report; release it with fpt_weights_report_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_weights_interpolated(const struct fpt_curve *curve,
+                                    double first_distance,
+                                    double last_distance,
+                                    const struct fpt_weights_options *options,
+                                    struct fpt_weights_report **out);
+
+/**
+ * The embedded network: wished distances for some poles; the distances of all others, by the formula, stay within a range. It is
+ * trained inside the call, in at most `steps` steps, and has the same bits for the same inputs and seed.
+ *
+ * Without wishes all weights are random within the range; with a wish for each pole, or with equal ends of the range, they are those of
+ * the formula. A pole whose chord distance is not more than min_distance has no weight in the range: it gets the least weight
+ * (FPT_WEIGHT_LIMITED).
+ *
+ * @param wish_poles      `wish_count` numbers of poles, none twice
+ * @param wish_distances  `wish_count` distances within the range
+ * @param wish_count      0: no wishes, both arrays may be NULL
+ * @param min_distance    finite, >= 0
+ * @param max_distance    finite, at least min_distance
+ * @param options         range of the weights, tolerance, seed and steps count; NULL: the defaults
+ * @param out             the report; release it with fpt_weights_report_free
+ * @return FPT_INVALID_ARGUMENT names the wish; also for one at a pole that coincides with its neighbour
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_weights_network(const struct fpt_curve *curve,
+                               const size_t *wish_poles,
+                               const double *wish_distances,
+                               size_t wish_count,
+                               double min_distance,
+                               double max_distance,
+                               const struct fpt_weights_options *options,
+                               struct fpt_weights_report **out);
+
+/**
+ * Weights whose curve really has the wished distances from its poles and meets the constraints, measured and bounded by
+ * fpt_curve_closest; the weights of poles without a wish are as near 1 as they can be (all, when each pole has one).
+ *
+ * A wish that is not met, or proven impossible for all weights of the range, is reported, with the best weights found. The given weights of
+ * the curve only matter for FPT_CONSTRAINT_TANGENT_KEPT, and as one start. About a millisecond for 10 poles; wishes that
+ * cannot be met take up to `starts` searches.
+ *
+ * @param wish_poles        `wish_count` numbers of poles, none twice
+ * @param wish_distances    `wish_count` distances, finite, >= 0
+ * @param wish_count        0: no wishes, both arrays may be NULL
+ * @param constraints       `constraint_count` constraints
+ * @param constraint_count  0: none, the array may be NULL
+ * @param options           NULL: the defaults
+ * @param out               the report; release it with fpt_weights_report_free
+ * @return FPT_INVALID_ARGUMENT names the wish or constraint; also for a wish at a pole that coincides with its neighbour
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_weights_refine_curve(const struct fpt_curve *curve,
+                                    const size_t *wish_poles,
+                                    const double *wish_distances,
+                                    size_t wish_count,
+                                    const struct fpt_weights_constraint *constraints,
+                                    size_t constraint_count,
+                                    const struct fpt_weights_options *options,
+                                    struct fpt_weights_report **out);
+
+/**
+ * As fpt_weights_refine_curve, for the weights of a surface; pole (i,j) is number i*pole_count_v + j. Tangent constraints are
+ * FPT_UNSUPPORTED.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_weights_refine_surface(const struct fpt_surface *surface,
+                                      const size_t *wish_poles,
+                                      const double *wish_distances,
+                                      size_t wish_count,
+                                      const struct fpt_weights_constraint *constraints,
+                                      size_t constraint_count,
+                                      const struct fpt_weights_options *options,
+                                      struct fpt_weights_report **out);
+
+/**
+ * The number of poles.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_weights_report_pole_count(const struct fpt_weights_report *report,
+                                         size_t *out_count);
+
+/**
+ * A pole's part.
+ *
+ * @param index  below the count, else FPT_INVALID_ARGUMENT
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_weights_report_pole(const struct fpt_weights_report *report,
+                                   size_t index,
+                                   struct fpt_weights_pole *out);
+
+/**
+ * All weights, in the order of the poles.
+ *
+ * @param capacity     numbers that out_weights has room for, at least the number of poles
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_weights_report_weights(const struct fpt_weights_report *report,
+                                      size_t capacity,
+                                      double *out_weights);
+
+/**
+ * What came of a constraint.
+ *
+ * @param index  as in the call that made the report; beyond its constraints FPT_INVALID_ARGUMENT
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_weights_report_constraint(const struct fpt_weights_report *report,
+                                         size_t index,
+                                         struct fpt_weights_outcome *out);
+
+/**
+ * The report in a few numbers.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_weights_report_summary(const struct fpt_weights_report *report,
+                                      struct fpt_weights_summary *out);
+
+/**
+ * The curve with the weights found, as a new handle; FPT_UNSUPPORTED for a report of a surface.
+ *
+ * @param out  the curve; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_weights_report_curve(const struct fpt_weights_report *report,
+                                    struct fpt_curve **out);
+
+/**
+ * The surface with the weights found, as a new handle; FPT_UNSUPPORTED for a report of a curve.
+ *
+ * @param out  the surface; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_weights_report_surface(const struct fpt_weights_report *report,
+                                      struct fpt_surface **out);
+
+/**
+ * Releases a report. NULL is fine. No other call may use the handle during or after this one.
+ * @since 0.1
+ */
+void fpt_weights_report_free(struct fpt_weights_report *report);
+
+/**
+ * The weight of a pole that moves one point of the curve towards it; the other weights stay.
+ *
+ * @param u           parameter of the point, in the domain; the pole's basis function must not be 0 or the only one there
+ * @param pole        below the number of poles
+ * @param distance    by how much, less than the distance from the pole; negative: away from it, less than to where the point is
+ *                    without the pole
+ * @param out_weight  the new weight of the pole
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_weights_move_point(const struct fpt_curve *curve,
+                                  double u,
+                                  size_t pole,
+                                  double distance,
+                                  double *out_weight);
+
+/**
+ * The weight of a pole with which the curve passes through a point; the other weights stay. The line from the pole through the point
+ * must cross the curve, and the point lie on it between the pole and the curve for weight 0; of several weights the one that
+ * changes least is taken.
+ *
+ * @param pole        below the number of poles
+ * @param point       3 finite numbers
+ * @param tolerance   length, finite, >= 0: how far the curve may pass. 0: 1e-7 x the diagonal of the poles' box
+ * @param out_weight  the new weight of the pole
+ * @param out_foot    the nearest point of the curve with that weight to the point, with its bound; NULL: not wanted
+ * @return FPT_INVALID_ARGUMENT when no weight of that pole takes the curve there
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_weights_through_point(const struct fpt_curve *curve,
+                                     size_t pole,
+                                     const double *point,
+                                     double tolerance,
+                                     double *out_weight,
+                                     struct fpt_foot_point *out_foot);
+
+/**
+ * The shape of the conic over three poles.
+ *
+ * @param poles    9 finite numbers, x,y,z each; not in one line
+ * @param weights  3 positive numbers
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_weights_conic(const double *poles,
+                             const double *weights,
+                             struct fpt_weights_conic_shape *out);
+
+/**
+ * The middle weight of a conic with end weights 1 for a shape factor rho, between 0 and 1: rho / (1 - rho).
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_weights_of_rho(double rho,
+                              double *out_weight);
+
+/**
+ * The middle weights with which the conic over three poles, end weights 1, has an eccentricity.
+ *
+ * @param poles         9 finite numbers, x,y,z each; not in one line
+ * @param eccentricity  finite, >= 0
+ * @param out_weights   room for 2 numbers, in rising order; what is not found is NaN
+ * @param out_count     0, 1 or 2: how many there are. A circle needs legs of equal length
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_weights_of_eccentricity(const double *poles,
+                                       double eccentricity,
+                                       double *out_weights,
+                                       size_t *out_count);
+
+/**
+ * Weights divided by one number: the same shape.
+ *
+ * @param weights      `count` numbers, 1e-100 to 1e100
+ * @param count        at least 1
+ * @param unit         a value of fpt_weights_unit
+ * @param out_weights  room for `count` numbers; must not overlap `weights`
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_weights_normalise(const double *weights,
+                                 size_t count,
+                                 uint32_t unit,
+                                 double *out_weights);
+
+/**
+ * Weights whose greatest is at most `ratio` times the least: those outside a range in the middle of the given ones move to its ends.
+ * The shape changes. fpt_weights_standard_form may lessen the spread without that.
+ *
+ * @param weights      `count` numbers, 1e-100 to 1e100
+ * @param count        at least 1
+ * @param ratio        at least 1
+ * @param out_weights  room for `count` numbers; must not overlap `weights`
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_weights_bound(const double *weights,
+                             size_t count,
+                             double ratio,
+                             double *out_weights);
+
+/**
+ * The same curve with both end weights 1: a rational change of the parameter, same poles and domain, other weights and inner knots.
+ *
+ * @param out  the curve; release it with fpt_curve_free
+ * @return FPT_UNSUPPORTED for a curve whose ends are not clamped
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_weights_standard_form(const struct fpt_curve *curve,
+                                     struct fpt_curve **out);
+
+/**
+ * A curve with positive weights from homogeneous data whose weights may be zero or negative: the same curve, with more poles where
+ * that is needed. It exists when the denominator does not vanish in the domain.
+ *
+ * @param degree      1 to 31
+ * @param pole_count  at least degree + 1
+ * @param knots       pole_count + degree + 1 numbers, as fpt_curve_data.knots
+ * @param poles       wx,wy,wz,w of pole i at 4*i: coordinates multiplied by the weight
+ * @param out         the curve; release it with fpt_curve_free
+ * @return FPT_UNSUPPORTED when the denominator vanishes (an end weight of 0 is such a case) or comes too near to 0 to tell; the text
+ *         has the parameter
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_weights_positive_form(size_t degree,
+                                     size_t pole_count,
+                                     const double *knots,
+                                     const double *poles,
+                                     struct fpt_curve **out);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: MIT OR Apache-2.0
  *
  * Every rule of footpoint.h holds here too: units, threads, lengths and order of the numbers. What differs:
- *   - a curve, a surface and a scene are released by their destructor; they move and do not copy;
+ *   - a curve, a surface, a scene and a report are released by their destructor; they move and do not copy;
  *   - a status that is not FPT_OK is thrown as footpoint::error, with the text of fpt_last_error();
  *   - array arguments are spans, which vectors, arrays and lists in braces become by themselves; their lengths are checked
  *     before the call;
@@ -922,6 +922,180 @@ private:
 
     std::unique_ptr<fpt_scene, deleter> handle_;
 };
+
+/** fpt_weights_options that begin as the defaults. */
+struct weights_options : fpt_weights_options {
+    weights_options() noexcept : fpt_weights_options() {
+        fpt_weights_options_init(this, sizeof(fpt_weights_options));
+    }
+};
+
+/** A wished distance of a shape from one of its poles. */
+struct weights_wish {
+    std::size_t pole;
+    double distance;
+};
+
+/** What a method for weights found: owner of an fpt_weights_report. */
+class weights_report {
+public:
+    /** Takes a handle over. */
+    explicit weights_report(fpt_weights_report *handle) noexcept : handle_(handle) {}
+
+    /** As fpt_weights_general. */
+    static weights_report general(const curve &shape, span<const double> lambdas,
+                                  const fpt_weights_options &options = weights_options()) {
+        fpt_weights_report *out = nullptr;
+        check(fpt_weights_general(shape.get(), lambdas.data(), lambdas.size(), &options, &out));
+        return weights_report(out);
+    }
+    /** As fpt_weights_interpolated. */
+    static weights_report interpolated(const curve &shape, double first_distance, double last_distance,
+                                       const fpt_weights_options &options = weights_options()) {
+        fpt_weights_report *out = nullptr;
+        check(fpt_weights_interpolated(shape.get(), first_distance, last_distance, &options, &out));
+        return weights_report(out);
+    }
+    /** As fpt_weights_network. */
+    static weights_report network(const curve &shape, span<const weights_wish> wishes, double min_distance,
+                                  double max_distance, const fpt_weights_options &options = weights_options()) {
+        const split list(wishes);
+        fpt_weights_report *out = nullptr;
+        check(fpt_weights_network(shape.get(), list.poles.data(), list.distances.data(), wishes.size(), min_distance,
+                                  max_distance, &options, &out));
+        return weights_report(out);
+    }
+    /** As fpt_weights_refine_curve. */
+    static weights_report refine(const curve &shape, span<const weights_wish> wishes,
+                                 span<const fpt_weights_constraint> constraints = {},
+                                 const fpt_weights_options &options = weights_options()) {
+        return refined(fpt_weights_refine_curve, shape.get(), wishes, constraints, options);
+    }
+    /** As fpt_weights_refine_surface. */
+    static weights_report refine(const surface &shape, span<const weights_wish> wishes,
+                                 span<const fpt_weights_constraint> constraints = {},
+                                 const fpt_weights_options &options = weights_options()) {
+        return refined(fpt_weights_refine_surface, shape.get(), wishes, constraints, options);
+    }
+
+    /** The handle, still owned here. */
+    const fpt_weights_report *get() const noexcept { return handle_.get(); }
+    /** The handle, owned by the caller from now on. */
+    fpt_weights_report *release() noexcept { return handle_.release(); }
+
+    /** Poles. */
+    std::size_t size() const { return detail::value(fpt_weights_report_pole_count, get()); }
+    /** A pole's part; an index beyond the size is thrown. */
+    fpt_weights_pole operator[](std::size_t index) const {
+        fpt_weights_pole out;
+        check(fpt_weights_report_pole(get(), index, &out));
+        return out;
+    }
+    std::vector<double> weights() const { return detail::vector(fpt_weights_report_weights, get(), size()); }
+    fpt_weights_outcome constraint(std::size_t index) const {
+        fpt_weights_outcome out;
+        check(fpt_weights_report_constraint(get(), index, &out));
+        return out;
+    }
+    fpt_weights_summary summary() const { return detail::value(fpt_weights_report_summary, get()); }
+    /** Whether every wish and every constraint is met. */
+    bool is_met() const { return summary().is_met == 1; }
+    /** The curve with the weights found; thrown for a report of a surface. */
+    curve as_curve() const { return curve(detail::value(fpt_weights_report_curve, get())); }
+    /** The surface with the weights found; thrown for a report of a curve. */
+    surface as_surface() const { return surface(detail::value(fpt_weights_report_surface, get())); }
+
+private:
+    struct deleter {
+        void operator()(fpt_weights_report *handle) const noexcept { fpt_weights_report_free(handle); }
+    };
+
+    /** Wishes as the two arrays of C. */
+    struct split {
+        explicit split(span<const weights_wish> wishes) {
+            for (const weights_wish &wish : wishes) {
+                poles.push_back(wish.pole);
+                distances.push_back(wish.distance);
+            }
+        }
+        std::vector<std::size_t> poles;
+        std::vector<double> distances;
+    };
+
+    template <class Call, class Shape>
+    static weights_report refined(Call call, const Shape *shape, span<const weights_wish> wishes,
+                                  span<const fpt_weights_constraint> constraints,
+                                  const fpt_weights_options &options) {
+        const split list(wishes);
+        fpt_weights_report *out = nullptr;
+        check(call(shape, list.poles.data(), list.distances.data(), wishes.size(), constraints.data(),
+                   constraints.size(), &options, &out));
+        return weights_report(out);
+    }
+
+    std::unique_ptr<fpt_weights_report, deleter> handle_;
+};
+
+/** A weight of a pole and the nearest point of the curve with it. */
+struct weights_edit {
+    double weight;
+    fpt_foot_point foot;
+};
+
+/** As fpt_weights_move_point. */
+inline double move_point(const curve &shape, double u, std::size_t pole, double distance) {
+    double out = 0;
+    check(fpt_weights_move_point(shape.get(), u, pole, distance, &out));
+    return out;
+}
+/** As fpt_weights_through_point; tolerance 0: the default. */
+inline weights_edit weight_through_point(const curve &shape, std::size_t pole, const point &target, double tolerance = 0) {
+    weights_edit out{};
+    check(fpt_weights_through_point(shape.get(), pole, target.data(), tolerance, &out.weight, &out.foot));
+    return out;
+}
+/** As fpt_weights_conic: three poles x,y,z each. */
+inline fpt_weights_conic_shape conic(const std::array<double, 9> &poles, const std::array<double, 3> &weights) {
+    fpt_weights_conic_shape out{};
+    check(fpt_weights_conic(poles.data(), weights.data(), &out));
+    return out;
+}
+/** As fpt_weights_of_rho. */
+inline double weight_of_rho(double rho) {
+    double out = 0;
+    check(fpt_weights_of_rho(rho, &out));
+    return out;
+}
+/** As fpt_weights_of_eccentricity: none, one or two weights. */
+inline std::vector<double> weights_of_eccentricity(const std::array<double, 9> &poles, double eccentricity) {
+    std::vector<double> out(2);
+    std::size_t count = 0;
+    check(fpt_weights_of_eccentricity(poles.data(), eccentricity, out.data(), &count));
+    out.resize(count);
+    return out;
+}
+/** As fpt_weights_normalise; unit is a value of fpt_weights_unit. */
+inline std::vector<double> normalised_weights(span<const double> weights, std::uint32_t unit) {
+    std::vector<double> out(weights.size());
+    check(fpt_weights_normalise(weights.data(), weights.size(), unit, out.data()));
+    return out;
+}
+/** As fpt_weights_bound. */
+inline std::vector<double> bounded_weights(span<const double> weights, double ratio) {
+    std::vector<double> out(weights.size());
+    check(fpt_weights_bound(weights.data(), weights.size(), ratio, out.data()));
+    return out;
+}
+/** As fpt_weights_standard_form. */
+inline curve standard_form(const curve &shape) { return curve(detail::value(fpt_weights_standard_form, shape.get())); }
+/** As fpt_weights_positive_form: wx,wy,wz,w a pole. */
+inline curve positive_form(std::size_t degree, span<const double> knots, span<const double> homogeneous) {
+    const std::size_t count = detail::pole_count(knots, degree, "knots: too few for the degree");
+    detail::require(homogeneous.size() == 4 * count, "poles: need wx,wy,wz,w for each pole");
+    fpt_curve *out = nullptr;
+    check(fpt_weights_positive_form(degree, count, knots.data(), homogeneous.data(), &out));
+    return curve(out);
+}
 
 } // namespace footpoint
 

@@ -113,39 +113,51 @@ fn blend(poles: &mut [f64], from: [usize; 2], out: usize, strands: usize, [y, x]
     }
 }
 
-/// Bernstein basis of degree `p` at `s` and its first two derivatives, each `p + 1` long.
+/// Bernstein basis of degree `p` at `s` and its first two derivatives, each `p + 1` long and at most `LEN`, from the powers
+/// of `s` and `1 - s`: O(p), and no step of a row waits for the one before.
 #[inline(always)]
-pub fn basis(p: usize, s: f64, values: &mut [f64], first: &mut [f64], second: &mut [f64]) {
-    let r = 1.0 - s;
-    values[0] = 1.0;
-    second[..=p].fill(0.0);
-    let mut level = 0;
-    while level < p {
-        if level + 2 == p {
-            difference(p as f64 * (p - 1) as f64, 2, values, level, second);
-        }
-        if level + 1 == p {
-            difference(p as f64, 1, values, level, first);
-        }
-        let mut carry = 0.0;
-        for value in values.iter_mut().take(level + 1) {
-            let old = *value;
-            *value = carry + r * old;
-            carry = s * old;
-        }
-        values[level + 1] = carry;
-        level += 1;
+pub fn basis<const LEN: usize>(
+    p: usize,
+    s: f64,
+    values: &mut [f64],
+    first: &mut [f64],
+    second: &mut [f64],
+) {
+    let (mut up, mut down) = ([1.0; LEN], [1.0; LEN]);
+    // The power i of 1 - s is number LEN - 1 - i: a row then runs through both tables forwards.
+    for i in 1..=p {
+        up[i] = up[i - 1] * s;
+        down[LEN - 1 - i] = down[LEN - i] * (1.0 - s);
+    }
+    row(p, &up, &down[LEN - 1 - p..], values);
+    let (n, m) = (p as f64, p as f64 * (p as f64 - 1.0));
+    let mut lower = [0.0; LEN];
+    if p > 0 {
+        row(p - 1, &up, &down[LEN - p..], &mut lower);
+    }
+    first[0] = -n * lower[0];
+    for i in 1..=p {
+        first[i] = n * (lower[i - 1] - lower[i]);
+    }
+    lower = [0.0; LEN];
+    if p > 1 {
+        row(p - 2, &up, &down[LEN + 1 - p..], &mut lower);
+    }
+    second[0] = m * lower[0];
+    if p > 0 {
+        second[1] = m * (lower[1] - 2.0 * lower[0]);
+    }
+    for i in 2..=p {
+        second[i] = m * (lower[i - 2] - 2.0 * lower[i - 1] + lower[i]);
     }
 }
 
-/// `out_i = factor * order-th backward difference of the degree-`n` basis values`, which is the derivative
-/// of the basis of degree `n + order`.
+/// The Bernstein basis of degree `n` from rising and falling powers.
 #[inline(always)]
-fn difference(factor: f64, order: usize, values: &[f64], n: usize, out: &mut [f64]) {
-    let at = |i: isize| if (0..=n as isize).contains(&i) { values[i as usize] } else { 0.0 };
-    for i in 0..=(n + order) as isize {
-        let d = if order == 1 { at(i - 1) - at(i) } else { at(i - 2) - 2.0 * at(i - 1) + at(i) };
-        out[i as usize] = factor * d;
+fn row(n: usize, up: &[f64], down: &[f64], out: &mut [f64]) {
+    let (binomial, up) = (&BINOMIAL[n][..=n], &up[..=n]);
+    for (((out, b), x), y) in out[..=n].iter_mut().zip(binomial).zip(up).zip(&down[..=n]) {
+        *out = b * x * y;
     }
 }
 
@@ -426,7 +438,7 @@ mod tests {
             let h = 1e-5;
             let at = |s: f64| {
                 let (mut v, mut d, mut e) = ([0.0; 10], [0.0; 10], [0.0; 10]);
-                basis(p, s, &mut v, &mut d, &mut e);
+                basis::<10>(p, s, &mut v, &mut d, &mut e);
                 (v, d, e)
             };
             let (low, mid, high) = (at(0.3 - h), at(0.3), at(0.3 + h));

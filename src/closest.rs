@@ -277,9 +277,21 @@ pub(crate) fn tree_slack(query: Vector) -> f64 {
 
 /// Squared distance beyond which a box of the tree need not be opened, neither for the proof nor for a tie.
 fn tree_limit(proof: &Proof, slack: f64) -> f64 {
-    let reach = proof.best + proof.window() + slack;
+    limit_within(proof.best, proof, slack)
+}
+
+/// The same when the shape is known to be as near as `distance`, but for rounding.
+fn first_limit(distance: f64, proof: &Proof, slack: f64) -> f64 {
+    limit_within(distance * (1.0 + CORNER_ROUNDING) + CORNER_ROUNDING, proof, slack)
+}
+
+fn limit_within(distance: f64, proof: &Proof, slack: f64) -> f64 {
+    let reach = distance + proof.window() + slack;
     reach * reach * (1.0 + 32.0 * HALF_ULP)
 }
+
+/// What is added to the distance of a corner: far more than its rounding and what a collapsed edge was moved.
+const CORNER_ROUNDING: f64 = 1e-9;
 
 /// Checks one interval of a restriction against the domain.
 fn check_range(

@@ -19,7 +19,7 @@ mod kernels;
 use crate::bezier::{Bidegree, binomial};
 use crate::bounds::Vector;
 use crate::simd::Level;
-use kernels::{Beyond, Extremes, Halve, Multiply, Ratio, Square};
+use kernels::{Beyond, Extremes, Halve, Multiply, ProductBeyond, Ratio, Square};
 
 /// Lanes of a vector, and room before the first coefficient.
 const LANES: usize = 8;
@@ -100,6 +100,9 @@ pub fn padded(count: usize) -> usize {
     whole(count)
 }
 
+/// A vertex within this share of a side is on it.
+const AT_SIDE: f64 = 1e-9;
+
 impl Grid {
     /// The arrays of products of two polynomials of bidegree `factor`.
     pub fn new(factor: Bidegree, rational: bool, level: Level) -> Self {
@@ -159,6 +162,34 @@ impl Grid {
         if self.rational { &slot[self.stride + LANES..][..self.count] } else { &[] }
     }
 
+    /// Where the ratio N / C is likely least, when coefficient `place` has the least of the ratios of coefficients: in each
+    /// direction the vertex of the parabola whose coefficients are the three around it (exact for a parabola of any
+    /// degree), as a share of the box.
+    pub fn vertex(&self, slot: &[f64], place: usize) -> [f64; 2] {
+        let (n, c, width) = (self.n(slot), self.c(slot), self.width());
+        let ratio = |k: usize| if c.is_empty() { n[k] } else { n[k] / c[k] };
+        let along = |degree: usize, i: usize, step: usize| {
+            if degree == 0 {
+                return 0.0;
+            }
+            let middle = i.clamp(1, degree - 1);
+            let k = place + middle * step - i * step;
+            let (a, b, c) = (ratio(k - step), ratio(k), ratio(k + step));
+            let bend = (a - b) + (c - b);
+            let offset = if bend > 0.0 { 0.5 * (a - c) / bend } else { i as f64 - middle as f64 };
+            let share = (middle as f64 + offset - 0.5) / (degree - 1) as f64;
+            // What rounding leaves of a vertex on a side would stay there where the parameter does not move the point.
+            if share < AT_SIDE {
+                0.0
+            } else if share > 1.0 - AT_SIDE {
+                1.0
+            } else {
+                share
+            }
+        };
+        [along(self.degree.s, place / width, width), along(self.degree.t, place % width, 1)]
+    }
+
     /// Fills a slot from tensors A, -2 B (three) and, when rational, C, each [`padded`]: `N = A - 2 p.B + |p|^2 C`.
     pub fn multiply(&self, tensors: &[f64], p: Vector, square: f64, slot: &mut [f64]) {
         self.level.run(Multiply { grid: self, tensors, p, square, slot });
@@ -175,6 +206,18 @@ impl Grid {
     /// Whether all `N > mu C`, for two values of `mu`.
     pub fn all_beyond(&self, slot: &[f64], mu: [f64; 2]) -> [bool; 2] {
         self.level.run(Beyond { grid: self, slot, mu })
+    }
+
+    /// Whether all `N > mu C` of what [`Self::multiply`] would make, and no C is less than `least_c`; nothing is stored.
+    pub fn product_beyond(
+        &self,
+        tensors: &[f64],
+        p: Vector,
+        square: f64,
+        mu: f64,
+        least_c: f64,
+    ) -> bool {
+        self.level.run(ProductBeyond { grid: self, tensors, p, square, mu, least_c })
     }
 
     /// Least ratio N / C, the first index that has it, and the greatest C.

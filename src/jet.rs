@@ -5,7 +5,7 @@
 //! Reference: Piegl, Tiller, *The NURBS Book*, 2nd ed., equations 4.8 and 4.20.
 
 use crate::bezier::{Bidegree, basis};
-use crate::bounds::{Vector, dot, sub};
+use crate::bounds::{Vector, dot, norm, sub};
 use crate::knots::MAX_DEGREE;
 use crate::simd::{Kernel, Lanes, Level, Simd};
 
@@ -63,6 +63,13 @@ impl Jet1 {
     /// Whether the distance is stationary to second order: the query is near the centre of curvature.
     pub fn is_flat(&self) -> bool {
         self.hessian().abs() <= FLAT * dot(self.s, self.s)
+    }
+}
+
+impl From<Jet1> for Jet2 {
+    /// A jet that does not depend on t.
+    fn from(jet: Jet1) -> Self {
+        Self { d: jet.d, s: jet.s, ss: jet.ss, w: [jet.w[0], jet.w[1], 0.0], ..Self::default() }
     }
 }
 
@@ -154,8 +161,16 @@ pub fn lanes(poles: &[f64], rational: bool) -> impl Iterator<Item = Lane> + '_ {
     (0..count).map(move |k| [poles[k], poles[count + k], poles[2 * count + k], weight(k)])
 }
 
+/// Distance of a homogeneous pole from a point.
+pub fn pole_distance([x, y, z, w]: &Lane, q: Vector) -> f64 {
+    norm(sub([x / w, y / w, z / w], q))
+}
+
 /// Degrees whose loops have fixed lengths.
 const FIXED: usize = 5;
+
+/// Degrees whose arrays are half as long as those of the highest.
+const MIDDLE: usize = 15;
 
 /// Basis values, first and second derivatives.
 type Basis<const N: usize> = [[f64; N]; 3];
@@ -171,8 +186,12 @@ fn bernstein<const N: usize>(n: usize, s: f64) -> Basis<N> {
         6 => widened::<6, N>(fixed_basis(s)),
         _ => {
             let mut out = [[0.0; N]; 3];
+            if N <= FIXED + 1 {
+                // Not so many poles: nothing to compile.
+                return out;
+            }
             let [values, first, second] = &mut out;
-            basis(n - 1, s, &mut values[..n], &mut first[..n], &mut second[..n]);
+            basis::<N>(n - 1, s, &mut values[..n], &mut first[..n], &mut second[..n]);
             out
         }
     }
@@ -262,6 +281,7 @@ impl Kernel for SegmentJet<'_> {
             3 => self.sums::<S, 4>(4),
             4 => self.sums::<S, 5>(5),
             FIXED => self.sums::<S, 6>(6),
+            p @ ..=MIDDLE => self.sums::<S, { MIDDLE + 1 }>(p + 1),
             p => self.sums::<S, { MAX_DEGREE + 1 }>(p + 1),
         };
         if !self.0.rational {
@@ -294,6 +314,8 @@ impl PatchJet<'_> {
     fn sums<S: Simd, const N: usize>(&self) -> [S::F4; 6] {
         if self.0.degree.s <= FIXED {
             self.sums_of::<S, N, { FIXED + 1 }>()
+        } else if self.0.degree.s <= MIDDLE {
+            self.sums_of::<S, N, { MIDDLE + 1 }>()
         } else {
             self.sums_of::<S, N, { MAX_DEGREE + 1 }>()
         }
@@ -341,6 +363,7 @@ impl Kernel for PatchJet<'_> {
             3 => self.sums::<S, 4>(),
             4 => self.sums::<S, 5>(),
             FIXED => self.sums::<S, 6>(),
+            ..=MIDDLE => self.sums::<S, { MIDDLE + 1 }>(),
             _ => self.sums::<S, { MAX_DEGREE + 1 }>(),
         };
         if !self.0.rational {
@@ -385,6 +408,8 @@ impl Kernel for PatchVector<'_> {
     fn run<S: Simd>(self, _: S) -> Vector {
         let sum = if self.0.degree.s.max(self.0.degree.t) <= FIXED {
             self.sum::<S, { FIXED + 1 }, { FIXED + 1 }>()
+        } else if self.0.degree.s.max(self.0.degree.t) <= MIDDLE {
+            self.sum::<S, { MIDDLE + 1 }, { MIDDLE + 1 }>()
         } else {
             self.sum::<S, { MAX_DEGREE + 1 }, { MAX_DEGREE + 1 }>()
         };
@@ -436,15 +461,17 @@ fn divided<V: Lanes<4>>(sums: [V; 6], p: Vector) -> Jet2 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bounds::{norm, scaled};
+    use crate::bounds::scaled;
 
     #[test]
     fn a_basis_without_loops_is_the_basis() {
         let same = |n: usize, fixed: Basis<6>, s: f64| {
             let mut out = [[0.0; 6]; 3];
             let [values, first, second] = &mut out;
-            basis(n - 1, s, &mut values[..n], &mut first[..n], &mut second[..n]);
-            assert_eq!(out, fixed, "{n} poles, s {s}");
+            basis::<6>(n - 1, s, &mut values[..n], &mut first[..n], &mut second[..n]);
+            for (a, b) in out.iter().flatten().zip(fixed.iter().flatten()) {
+                assert!((a - b).abs() <= 1e-14, "{n} poles, s {s}: {a} {b}");
+            }
         };
         for s in [0.0, 0.3, 0.77, 1.0] {
             same(2, widened::<2, 6>(fixed_basis(s)), s);

@@ -51,4 +51,6 @@ pub mod callback;
 
 pub mod batch;
 
+pub mod weights;
+
 mod ffi;

@@ -44,7 +44,7 @@ const STEPS: u32 = 40;
 const STEPS_FIRST_ORDER: u32 = 200;
 /// A parameter step below this share of the box is the last one: the next would be below its square.
 const LAST_STEP: f64 = 3e-9;
-/// A parameter step below this share of the box is rounding.
+/// A parameter step below this share of the parameter (of the box, on surfaces) is rounding.
 const NO_STEP: f64 = 4e-16;
 
 impl Method {

@@ -39,6 +39,7 @@ use crate::closest::{FootPoint, Found, QueryOptions, Within, Workspace};
 use crate::curve::Curve;
 use crate::error::Error;
 use crate::index::{Frame, IndexedCurve, IndexedSurface, Poll};
+use crate::simd::Level;
 use crate::surface::Surface;
 use crate::tree::Tree;
 
@@ -222,7 +223,7 @@ impl Scene {
             let Aabb { low, high } = boxes[member as usize];
             Aabb { low: frame.enter(low), high: frame.enter(high) }.grown(8.0 * HALF_ULP)
         }));
-        let tree = Tree::new(&leaves, leaves.len(), 1);
+        let tree = Tree::new(&leaves, leaves.len(), 1, Level::detect());
         let shapes = distinct(&members)?;
         let is_ready = AtomicBool::new(false);
         Ok(Self { members, shapes, bounds, frame, order, tree, is_ready })

@@ -1,29 +1,35 @@
-//! Bounding-volume tree over a grid of pieces, four children a node, walked nearest first.
+//! Bounding-volume tree over a grid of pieces, eight children a node, walked nearest first.
 //!
 //! ```text
-//!   node: 4 boxes, component by component      child = node index, or LEAF | piece index
-//!         low x0 x1 x2 x3  ...                 unused children have the empty box (distance infinite)
+//!   node: 8 boxes, component by component      child = node index, or LEAF | piece index
+//!         low x0 x1 .. x7  ...                 unused children have the empty box (distance infinite)
 //! ```
 //!
-//! Pieces of one spline form a grid (a curve is a grid of one column), so neighbours in the grid are
+//! Boxes are kept in floats, rounded outward: eight children take as much as four would in doubles. Distances are in
+//! doubles. Pieces of one spline form a grid (a curve is a grid of one column), so neighbours in the grid are
 //! neighbours in space and the tree is built by halving index ranges: no sorting, O(n).
 
 use crate::bounds::{Aabb, Vector};
+use crate::simd::{Kernel, Lanes, Level, Simd};
 
 const LEAF: u32 = 1 << 31;
 
+/// Children of a node.
+const WIDTH: usize = 8;
+
 #[derive(Clone, Debug)]
+#[repr(align(32))]
 struct Node {
-    low: [[f64; 4]; 3],
-    high: [[f64; 4]; 3],
-    child: [u32; 4],
+    low: [[f32; WIDTH]; 3],
+    high: [[f32; WIDTH]; 3],
+    child: [u32; WIDTH],
 }
 
 /// The tree. Immutable once built.
 #[derive(Clone, Debug)]
 pub struct Tree {
     nodes: Vec<Node>,
-    bounds: Aabb,
+    level: Level,
 }
 
 /// A part of the tree that waits for its turn: squared distance of its box and what it is.
@@ -72,10 +78,12 @@ impl Rectangle {
 
 impl Tree {
     /// Builds the tree over `boxes`, where box `r * columns + c` belongs to grid place (r, c).
-    pub fn new(boxes: &[Aabb], rows: usize, columns: usize) -> Self {
-        let mut tree = Self { nodes: Vec::with_capacity(boxes.len() / 2 + 1), bounds: Aabb::EMPTY };
+    pub fn new(boxes: &[Aabb], rows: usize, columns: usize, level: Level) -> Self {
+        let nodes = Vec::with_capacity(boxes.len() / 4 + 1);
+        let mut tree = Self { nodes, level };
         let all = Rectangle { rows: (0, rows), columns: (0, columns) };
-        tree.bounds = tree.build(boxes, columns, all).1;
+        tree.build(boxes, columns, all);
+        tree.nodes.shrink_to_fit();
         tree
     }
 
@@ -84,18 +92,15 @@ impl Tree {
         self.nodes.capacity() * size_of::<Node>()
     }
 
-    /// The box of everything.
-    pub fn bounds(&self) -> Aabb {
-        self.bounds
-    }
-
     fn build(&mut self, boxes: &[Aabb], columns: usize, all: Rectangle) -> (u32, Aabb) {
         let index = self.nodes.len();
-        let empty =
-            Node { low: [[f64::INFINITY; 4]; 3], high: [[f64::NEG_INFINITY; 4]; 3], child: [0; 4] };
-        self.nodes.push(empty);
+        self.nodes.push(Node {
+            low: [[f32::INFINITY; WIDTH]; 3],
+            high: [[f32::NEG_INFINITY; WIDTH]; 3],
+            child: [0; WIDTH],
+        });
         let mut bounds = Aabb::EMPTY;
-        for (slot, part) in quarters(all).into_iter().enumerate() {
+        for (slot, part) in parts(all).into_iter().enumerate() {
             let (child, aabb) = match part.count() {
                 0 => continue,
                 1 => {
@@ -112,57 +117,110 @@ impl Tree {
 
     /// Starts a walk: empties `queue` and puts the root in.
     pub fn start(&self, queue: &mut Queue) {
-        queue.heap.clear();
+        queue.clear();
         queue.push(Waiting { key: 0.0, id: 0 });
     }
 
     /// Replaces a node by its children that are nearer than `limit` (squared).
     pub fn open(&self, node: Waiting, query: Vector, limit: f64, queue: &mut Queue) {
         let node = &self.nodes[node.id as usize];
-        let keys = node.distances(query);
-        for slot in 0..4 {
-            if keys[slot] < limit {
-                queue.push(Waiting { key: keys[slot], id: node.child[slot] });
+        let keys = self.level.run(Distances { node, query });
+        for (key, id) in keys.into_iter().zip(node.child) {
+            if key < limit {
+                queue.push(Waiting { key, id });
             }
+        }
+    }
+
+    /// A piece whose box is near, found without looking at more than one node a level; `None` when one node is all.
+    pub fn glance(&self, query: Vector) -> Option<usize> {
+        let mut at = 0;
+        loop {
+            let node = &self.nodes[at];
+            let keys = self.level.run(Distances { node, query });
+            let mut best = 0;
+            for slot in 1..WIDTH {
+                if keys[slot] < keys[best] {
+                    best = slot;
+                }
+            }
+            let child = node.child[best];
+            if child & LEAF != 0 {
+                return (at > 0).then_some((child & !LEAF) as usize);
+            }
+            if child == 0 {
+                return None;
+            }
+            at = child as usize;
         }
     }
 }
 
-fn quarters(all: Rectangle) -> [Rectangle; 4] {
+fn parts(all: Rectangle) -> [Rectangle; WIDTH] {
     let (a, b) = all.halves();
     let ((a, c), (b, d)) = (a.halves(), b.halves());
-    [a, c, b, d]
+    let [(a, e), (c, f), (b, g), (d, h)] = [a, c, b, d].map(Rectangle::halves);
+    [a, e, c, f, b, g, d, h]
+}
+
+/// The greatest float that is not more.
+fn rounded_down(x: f64) -> f32 {
+    let y = x as f32;
+    if f64::from(y) > x { y.next_down() } else { y }
 }
 
 impl Node {
     fn set(&mut self, slot: usize, child: u32, aabb: &Aabb) {
         self.child[slot] = child;
         for k in 0..3 {
-            self.low[k][slot] = aabb.low[k];
-            self.high[k][slot] = aabb.high[k];
+            self.low[k][slot] = rounded_down(aabb.low[k]);
+            self.high[k][slot] = -rounded_down(-aabb.high[k]);
         }
-    }
-
-    /// Squared distances to the four boxes; an unused child is infinitely far.
-    fn distances(&self, query: Vector) -> [f64; 4] {
-        let mut sum = [0.0; 4];
-        for k in 0..3 {
-            for (slot, total) in sum.iter_mut().enumerate() {
-                let below = self.low[k][slot] - query[k];
-                let above = query[k] - self.high[k][slot];
-                let outside = if below > above { below } else { above };
-                let outside = if outside > 0.0 { outside } else { 0.0 };
-                *total += outside * outside;
-            }
-        }
-        sum
     }
 }
 
+/// Squared distances to the eight boxes; an unused child is infinitely far.
+struct Distances<'a> {
+    node: &'a Node,
+    query: Vector,
+}
+
+impl Kernel for Distances<'_> {
+    type Out = [f64; WIDTH];
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) -> [f64; WIDTH] {
+        let mut sum = S::F8::splat(0.0);
+        for k in 0..3 {
+            let (mut low, mut high) = ([0.0; WIDTH], [0.0; WIDTH]);
+            for slot in 0..WIDTH {
+                low[slot] = f64::from(self.node.low[k][slot]);
+                high[slot] = f64::from(self.node.high[k][slot]);
+            }
+            let q = S::F8::splat(self.query[k]);
+            let outside = (S::F8::load(&low) - q).max(q - S::F8::load(&high));
+            let outside = outside.max(S::F8::splat(0.0));
+            sum = sum + outside * outside;
+        }
+        sum.array()
+    }
+}
+
+/// How many of the nearest a [`Queue`] keeps in order.
+const FRONT: usize = 24;
+
 /// The parts of a tree that wait, nearest first; ties by index, so that the order is reproducible.
+///
+/// ```text
+///   front: the nearest, in order, the very nearest last      rest: a heap of what is farther than all of the front
+/// ```
+///
+/// What a walk puts in is mostly among the nearest: a few steps through the front, and nothing to be done when it is taken
+/// out.
 #[derive(Clone, Debug, Default)]
 pub struct Queue {
-    heap: Vec<Waiting>,
+    front: Vec<Waiting>,
+    rest: Vec<Waiting>,
 }
 
 impl Queue {
@@ -170,45 +228,75 @@ impl Queue {
         a.key < b.key || (a.key == b.key && a.id < b.id)
     }
 
+    fn clear(&mut self) {
+        self.front.clear();
+        self.rest.clear();
+    }
+
     fn push(&mut self, item: Waiting) {
-        self.heap.push(item);
-        let mut at = self.heap.len() - 1;
-        while at > 0 {
-            let parent = (at - 1) / 2;
-            if !Self::before(item, self.heap[parent]) {
-                break;
-            }
-            self.heap[at] = self.heap[parent];
-            at = parent;
+        if self.rest.first().is_some_and(|&nearest| Self::before(nearest, item)) {
+            return self.put_by(item);
         }
-        self.heap[at] = item;
+        if self.front.len() == FRONT {
+            let farthest = self.front[0];
+            if Self::before(farthest, item) {
+                return self.put_by(item);
+            }
+            self.front.remove(0);
+            self.put_by(farthest);
+        }
+        self.front.push(item);
+        let mut at = self.front.len() - 1;
+        while at > 0 && Self::before(self.front[at - 1], item) {
+            self.front[at] = self.front[at - 1];
+            at -= 1;
+        }
+        self.front[at] = item;
     }
 
     /// Key of the nearest part, without taking it.
     pub fn nearest(&self) -> Option<f64> {
-        self.heap.first().map(|item| item.key)
+        self.front.last().or(self.rest.first()).map(|item| item.key)
     }
 
     /// Takes the nearest part.
     pub fn pop(&mut self) -> Option<Waiting> {
-        let last = self.heap.pop()?;
-        let Some(&top) = self.heap.first() else { return Some(last) };
-        let (mut at, count) = (0, self.heap.len());
+        self.front.pop().or_else(|| self.take_from_rest())
+    }
+
+    fn put_by(&mut self, item: Waiting) {
+        self.rest.push(item);
+        let mut at = self.rest.len() - 1;
+        while at > 0 {
+            let parent = (at - 1) / 2;
+            if !Self::before(item, self.rest[parent]) {
+                break;
+            }
+            self.rest[at] = self.rest[parent];
+            at = parent;
+        }
+        self.rest[at] = item;
+    }
+
+    fn take_from_rest(&mut self) -> Option<Waiting> {
+        let last = self.rest.pop()?;
+        let Some(&top) = self.rest.first() else { return Some(last) };
+        let (mut at, count) = (0, self.rest.len());
         loop {
             let mut child = 2 * at + 1;
             if child >= count {
                 break;
             }
-            if child + 1 < count && Self::before(self.heap[child + 1], self.heap[child]) {
+            if child + 1 < count && Self::before(self.rest[child + 1], self.rest[child]) {
                 child += 1;
             }
-            if !Self::before(self.heap[child], last) {
+            if !Self::before(self.rest[child], last) {
                 break;
             }
-            self.heap[at] = self.heap[child];
+            self.rest[at] = self.rest[child];
             at = child;
         }
-        self.heap[at] = last;
+        self.rest[at] = last;
         Some(top)
     }
 }
@@ -232,7 +320,7 @@ mod tests {
     #[test]
     fn every_piece_comes_once_and_in_order_of_distance() {
         for (rows, columns) in [(1, 1), (1, 2), (5, 1), (7, 9), (16, 16)] {
-            let tree = Tree::new(&grid(rows, columns), rows, columns);
+            let tree = Tree::new(&grid(rows, columns), rows, columns, Level::PORTABLE);
             let mut queue = Queue::default();
             tree.start(&mut queue);
             let (mut seen, mut last) = (vec![0; rows * columns], 0.0);
@@ -250,7 +338,7 @@ mod tests {
 
     #[test]
     fn parts_beyond_the_limit_are_dropped() {
-        let tree = Tree::new(&grid(8, 8), 8, 8);
+        let tree = Tree::new(&grid(8, 8), 8, 8, Level::PORTABLE);
         let mut queue = Queue::default();
         tree.start(&mut queue);
         let root = queue.pop().unwrap();

@@ -548,3 +548,24 @@ fn intervals_that_hold_more_than_an_oblique_continuum_are_marked() {
     }
     assert!(wide > 0, "{set:?}");
 }
+
+#[test]
+fn a_minimum_on_a_border_inside_a_span_that_doubles_do_not_resolve_is_found() {
+    // A band that turns by a right angle within 1e-10 of its parameter: the turn lies in doubles on the knot before it.
+    let corner = [[0., 0.], [1., 0.], [2., 0.], [2., 2.]];
+    let poles: Vec<[f64; 3]> = corner.iter().flat_map(|&[x, y]| [[x, y, 0.], [x, y, 1.]]).collect();
+    let end = 1.0 + 1e-10;
+    let knots = [0., 0., 0., 1., end, end, end];
+    let band = Surface::new(&knots, &[0., 0., 1., 1.], 2, 1, &poles, 4, 2, None).unwrap();
+    let band = IndexedSurface::new(band);
+    for z in [0.5f64, 1.5, -0.25] {
+        let query = [3., -1., z];
+        let height = (z - z.clamp(0., 1.)).abs();
+        let distance = (2.0f64 + height * height).sqrt();
+        let set = band.extrema(query, &ExtremaOptions::default(), &mut || false).unwrap();
+        let nearest = set.members[0];
+        assert!(set.is_complete() && nearest.nature == Nature::Minimum, "{z}: {set:?}");
+        assert!((nearest.foot.distance - distance).abs() < 1e-9, "{z}: {nearest:?}");
+        assert_eq!(nearest.foot.v, z.clamp(0., 1.));
+    }
+}

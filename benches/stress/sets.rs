@@ -200,18 +200,19 @@ fn is_clear(judge: &Judge, found: &Found, query: Vector) -> bool {
         dot(jet.t, jet.t) + dot(jet.d, jet.tt),
     ];
     let clear = |h: f64, speed: f64| h > 1e-3 * speed * speed;
-    // Another Newton step must not lead away: a small gradient alone says little where the distance hardly bends.
-    let still = |step: f64| step.abs() <= 1e-6;
+    // Another Newton step must not lead away: a small gradient alone says little where the distance hardly bends, and a
+    // descent that its last step left on the way to distance zero is off by as much as the step.
+    let still = |step: f64, speed: f64| step.abs() <= 1e-6 && step.abs() * speed <= 5e-9 * diagonal;
     let [s, t] = speeds;
     match free {
         [false, false] => true,
-        [true, false] => clear(h[0], s) && still(g[0] / h[0]),
-        [false, true] => clear(h[2], t) && still(g[1] / h[2]),
+        [true, false] => clear(h[0], s) && still(g[0] / h[0], s),
+        [false, true] => clear(h[2], t) && still(g[1] / h[2], t),
         _ => {
             let det = h[0] * h[2] - h[1] * h[1];
             let step = [(h[1] * g[1] - h[2] * g[0]) / det, (h[1] * g[0] - h[0] * g[1]) / det];
             let bends = clear(h[0], s) && clear(h[2], t) && det > 1e-3 * h[0] * h[2];
-            bends && still(step[0]) && still(step[1])
+            bends && still(step[0], s) && still(step[1], t)
         }
     }
 }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <malloc.h>
 #include <stdexcept>
 
 namespace {
@@ -16,16 +15,11 @@ void need(fpt_status status) {
     }
 }
 
-double allocated() {
-    const struct mallinfo2 info = mallinfo2();
-    return double(info.uordblks) + double(info.hblkhd);
-}
-
 } // namespace
 
 Shape::Shape(const Geometry &g) {
     const double *weights = g.rational ? g.weights.data() : nullptr;
-    const double before = allocated(), start = now();
+    const double start = now();
     double box[6];
     if (g.is_curve) {
         const fpt_curve_data data = {sizeof data, size_t(g.degree[0]), size_t(g.count[0]),
@@ -40,7 +34,9 @@ Shape::Shape(const Geometry &g) {
         need(fpt_surface_prepare(surface_));
     }
     set_up_seconds_ = (now() - start) * 1e-9;
-    memory_ = allocated() - before;
+    size_t held = 0;
+    need(g.is_curve ? fpt_curve_memory(curve_, &held) : fpt_surface_memory(surface_, &held));
+    memory_ = double(held);
     need(g.is_curve ? fpt_curve_box(curve_, box) : fpt_surface_box(surface_, box));
     need(g.is_curve ? fpt_curve_domain(curve_, domain_) : fpt_surface_domain(surface_, domain_));
     diagonal_ = norm({box[3] - box[0], box[4] - box[1], box[5] - box[2]});

@@ -21,8 +21,7 @@ public:
     double diagonal() const { return diagonal_; }
     // Of the constructor and the index.
     double set_up_seconds() const { return set_up_seconds_; }
-    // What the handle and its index hold, from the allocator's books (malloc), in bytes. A function of the library
-    // that says so (fpt_*_memory) goes here.
+    // What the handle and its index hold, in bytes.
     double memory() const { return memory_; }
 
     // One call for all of them; packed points and hints (a pair each, on a curve too).

@@ -72,10 +72,34 @@ typedef enum fpt_path_change {
     FPT_PATH_THROUGH_COLLAPSED = 4,
     FPT_PATH_TIE = 8,
 } fpt_path_change;
+typedef enum fpt_weights_state {
+    FPT_WISH_NONE = 0,
+    FPT_WISH_MET = 1,
+    FPT_WISH_NOT_MET = 2,
+    FPT_WISH_IMPOSSIBLE = 3,
+} fpt_weights_state;
+typedef enum fpt_weights_flag {
+    FPT_WEIGHT_ON_CHORD = 1,
+    FPT_WEIGHT_LIMITED = 2,
+    FPT_WEIGHT_AT_LIMIT = 4,
+    FPT_WEIGHT_UNTRAINED = 8,
+} fpt_weights_flag;
+typedef enum fpt_weights_constraint_kind {
+    FPT_CONSTRAINT_POINT_AT = 0,
+    FPT_CONSTRAINT_POINT = 1,
+    FPT_CONSTRAINT_TANGENT_AT = 2,
+    FPT_CONSTRAINT_TANGENT_KEPT = 3,
+} fpt_weights_constraint_kind;
+typedef enum fpt_weights_unit {
+    FPT_UNIT_FIRST = 0,
+    FPT_UNIT_GREATEST = 1,
+    FPT_UNIT_MIDDLE = 2,
+} fpt_weights_unit;
 typedef struct fpt_curve fpt_curve;
 typedef struct fpt_foot_set fpt_foot_set;
 typedef struct fpt_scene fpt_scene;
 typedef struct fpt_surface fpt_surface;
+typedef struct fpt_weights_report fpt_weights_report;
 typedef int32_t fpt_status;
 typedef struct fpt_query_options {
     size_t struct_size;
@@ -171,6 +195,60 @@ typedef struct fpt_scene_data {
     size_t member_count;
     const struct fpt_scene_member *members;
 } fpt_scene_data;
+typedef struct fpt_weights_options {
+    size_t struct_size;
+    double weight_min;
+    double weight_max;
+    double ratio_limit;
+    double tolerance;
+    uint32_t symmetric;
+    uint32_t steps;
+    uint32_t starts;
+    uint32_t reserved;
+    uint64_t seed;
+    int (*should_stop)(void *user);
+    void *user;
+} fpt_weights_options;
+typedef struct fpt_weights_constraint {
+    uint32_t kind;
+    uint32_t reserved;
+    double u;
+    double v;
+    double vector[3];
+} fpt_weights_constraint;
+typedef struct fpt_weights_pole {
+    double wish;
+    double chord_distance;
+    double first_guess;
+    double weight;
+    double distance;
+    double lower_bound;
+    double u;
+    double v;
+    uint32_t state;
+    uint32_t flags;
+} fpt_weights_pole;
+typedef struct fpt_weights_outcome {
+    double error;
+    double u;
+    double v;
+    uint32_t met;
+    uint32_t reserved;
+} fpt_weights_outcome;
+typedef struct fpt_weights_summary {
+    double tolerance;
+    uint64_t iterations;
+    uint32_t starts;
+    uint32_t is_met;
+    uint64_t met;
+    uint64_t not_met;
+    uint64_t impossible;
+} fpt_weights_summary;
+typedef struct fpt_weights_conic_shape {
+    double weight;
+    double rho;
+    double eccentricity;
+} fpt_weights_conic_shape;
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -540,6 +618,115 @@ fpt_status fpt_scene_normals(const struct fpt_scene *scene,
                              double *out_normals,
                              double *out_signed,
                              uint32_t *out_flags);
+void fpt_weights_options_init(struct fpt_weights_options *options, size_t struct_size);
+FPT_MUST_USE
+fpt_status fpt_weights_general(const struct fpt_curve *curve,
+                               const double *lambdas,
+                               size_t lambda_count,
+                               const struct fpt_weights_options *options,
+                               struct fpt_weights_report **out);
+FPT_MUST_USE
+fpt_status fpt_weights_interpolated(const struct fpt_curve *curve,
+                                    double first_distance,
+                                    double last_distance,
+                                    const struct fpt_weights_options *options,
+                                    struct fpt_weights_report **out);
+FPT_MUST_USE
+fpt_status fpt_weights_network(const struct fpt_curve *curve,
+                               const size_t *wish_poles,
+                               const double *wish_distances,
+                               size_t wish_count,
+                               double min_distance,
+                               double max_distance,
+                               const struct fpt_weights_options *options,
+                               struct fpt_weights_report **out);
+FPT_MUST_USE
+fpt_status fpt_weights_refine_curve(const struct fpt_curve *curve,
+                                    const size_t *wish_poles,
+                                    const double *wish_distances,
+                                    size_t wish_count,
+                                    const struct fpt_weights_constraint *constraints,
+                                    size_t constraint_count,
+                                    const struct fpt_weights_options *options,
+                                    struct fpt_weights_report **out);
+FPT_MUST_USE
+fpt_status fpt_weights_refine_surface(const struct fpt_surface *surface,
+                                      const size_t *wish_poles,
+                                      const double *wish_distances,
+                                      size_t wish_count,
+                                      const struct fpt_weights_constraint *constraints,
+                                      size_t constraint_count,
+                                      const struct fpt_weights_options *options,
+                                      struct fpt_weights_report **out);
+FPT_MUST_USE
+fpt_status fpt_weights_report_pole_count(const struct fpt_weights_report *report,
+                                         size_t *out_count);
+FPT_MUST_USE
+fpt_status fpt_weights_report_pole(const struct fpt_weights_report *report,
+                                   size_t index,
+                                   struct fpt_weights_pole *out);
+FPT_MUST_USE
+fpt_status fpt_weights_report_weights(const struct fpt_weights_report *report,
+                                      size_t capacity,
+                                      double *out_weights);
+FPT_MUST_USE
+fpt_status fpt_weights_report_constraint(const struct fpt_weights_report *report,
+                                         size_t index,
+                                         struct fpt_weights_outcome *out);
+FPT_MUST_USE
+fpt_status fpt_weights_report_summary(const struct fpt_weights_report *report,
+                                      struct fpt_weights_summary *out);
+FPT_MUST_USE
+fpt_status fpt_weights_report_curve(const struct fpt_weights_report *report,
+                                    struct fpt_curve **out);
+FPT_MUST_USE
+fpt_status fpt_weights_report_surface(const struct fpt_weights_report *report,
+                                      struct fpt_surface **out);
+void fpt_weights_report_free(struct fpt_weights_report *report);
+FPT_MUST_USE
+fpt_status fpt_weights_move_point(const struct fpt_curve *curve,
+                                  double u,
+                                  size_t pole,
+                                  double distance,
+                                  double *out_weight);
+FPT_MUST_USE
+fpt_status fpt_weights_through_point(const struct fpt_curve *curve,
+                                     size_t pole,
+                                     const double *point,
+                                     double tolerance,
+                                     double *out_weight,
+                                     struct fpt_foot_point *out_foot);
+FPT_MUST_USE
+fpt_status fpt_weights_conic(const double *poles,
+                             const double *weights,
+                             struct fpt_weights_conic_shape *out);
+FPT_MUST_USE
+fpt_status fpt_weights_of_rho(double rho,
+                              double *out_weight);
+FPT_MUST_USE
+fpt_status fpt_weights_of_eccentricity(const double *poles,
+                                       double eccentricity,
+                                       double *out_weights,
+                                       size_t *out_count);
+FPT_MUST_USE
+fpt_status fpt_weights_normalise(const double *weights,
+                                 size_t count,
+                                 uint32_t unit,
+                                 double *out_weights);
+FPT_MUST_USE
+fpt_status fpt_weights_bound(const double *weights,
+                             size_t count,
+                             double ratio,
+                             double *out_weights);
+FPT_MUST_USE
+fpt_status fpt_weights_standard_form(const struct fpt_curve *curve,
+                                     struct fpt_curve **out);
+FPT_MUST_USE
+fpt_status fpt_weights_positive_form(size_t degree,
+                                     size_t pole_count,
+                                     const double *knots,
+                                     const double *poles,
+                                     struct fpt_curve **out);
 #ifdef __cplusplus
 }
 #endif

@@ -12,10 +12,13 @@ pub fn squared_error(position: f64, radius: f64, steps: f64) -> f64 {
     (2.0 * radius + position) * position + steps * radius * radius
 }
 
-/// Whether coefficients of `C = W^2` are so small that underflow may have taken their digits: then no test of the box
-/// counts. Happens where weights of one piece differ by more than 1e130.
+/// Coefficients of `C = W^2` below this may have lost digits to underflow: then no test of the box counts. Happens where
+/// weights of one piece differ by more than 1e130.
+pub const LEAST_C: f64 = 1e-270;
+
+/// Whether there is such a coefficient.
 pub fn underflows(c: &[f64]) -> bool {
-    c.iter().any(|&x| x < 1e-270)
+    c.iter().any(|&x| x < LEAST_C)
 }
 
 /// `X - W p` in place of `X`; returns the greatest `|r| / W`.

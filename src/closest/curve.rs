@@ -5,7 +5,7 @@ mod ties;
 
 pub use ties::{neighbour, shortest, wrapped};
 
-use super::certificate::squared_error;
+use super::certificate::{LEAST_C, squared_error};
 use super::elementary::raise;
 use super::line::{Given, Line, LineMemory, Source, search_line};
 use super::local::{LOCAL_FLAGS, WholeCurve, curve_start};
@@ -13,8 +13,8 @@ use super::proof::{Proof, Site, Watch, note_loose};
 use super::within::{Within, nothing_within};
 use super::{
     CONTINUUM_STEPS, FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, distance,
-    far_foot, flag, grained, is_bad, is_coarse, mark_inversion, rounding_floor, search_floor,
-    tree_limit, tree_slack, ulp,
+    far_foot, first_limit, flag, grained, is_bad, is_coarse, mark_inversion, rounding_floor,
+    search_floor, tree_limit, tree_slack, ulp,
 };
 use crate::bounds::{Vector, cross, dot, norm, sub};
 use crate::error::Error;
@@ -333,7 +333,9 @@ impl CurveSearch<'_> {
         let (s, jet, taken) = foot_on_curve(&view, start, range, self.options.method, None);
         proof.evaluations += taken;
         let flat = || jet.is_flat().then_some([1.0, 0.0]);
-        proof.offer(Site { piece: k, at: [s, 0.0] }, jet.d, flat);
+        let site = Site { piece: k, at: [s, 0.0] };
+        proof.offer(site, jet.d, flat);
+        proof.keep(site, &jet.into());
     }
 
     /// Goes on in the neighbour when the best foot lies on the knot between two segments: the search leaves out what
@@ -359,10 +361,11 @@ impl CurveSearch<'_> {
 
     fn walk(&self, workspace: &mut Workspace, proof: &mut Proof) {
         let slack = tree_slack(self.query);
+        let first = self.first_limit(proof, slack);
         self.index.tree.start(&mut workspace.queue);
         workspace.loose.clear();
         while let Some(next) = workspace.queue.pop() {
-            let limit = tree_limit(proof, slack);
+            let limit = tree_limit(proof, slack).min(first);
             if proof.is_trivial() || next.key > limit {
                 return;
             }
@@ -374,6 +377,17 @@ impl CurveSearch<'_> {
                 }
             }
         }
+    }
+
+    /// How far the walk needs to look before it has found anything: an end of a near segment tells.
+    fn first_limit(&self, proof: &Proof, slack: f64) -> f64 {
+        if proof.best.is_finite() || self.options.domain.is_some() {
+            return f64::INFINITY;
+        }
+        let near = self.index.tree.glance(self.query);
+        near.map_or(f64::INFINITY, |k| {
+            first_limit(self.index.end_distance(k, self.query), proof, slack)
+        })
     }
 
     fn search(&self, k: usize, memory: &mut LineMemory, proof: &mut Proof) {
@@ -388,6 +402,20 @@ impl CurveSearch<'_> {
             size,
             norm(self.query),
         );
+        let radius = segment.radius + size;
+        let error = squared_error(position, radius, product_steps(self.index.degree() + 1));
+        let source = match self.index.tensors(k) {
+            Some(tensors) if range == [0.0, 1.0] => {
+                // Most segments go here, and leave no trace.
+                let mu = proof.level_squared().max(proof.tie_squared()) + error;
+                let (grid, square) = (&self.index.grid, dot(p, p));
+                if mu.is_finite() && grid.product_beyond(tensors, p, square, mu, LEAST_C) {
+                    return;
+                }
+                Source::Tensors(tensors)
+            }
+            _ => Source::Poles,
+        };
         let site = |s: f64| Site { piece: k, at: [s, 0.0] };
         let line = Line {
             segment: self.index.net(k),
@@ -403,12 +431,8 @@ impl CurveSearch<'_> {
             grid: &self.index.grid,
             method: self.options.method,
         };
-        let source = match self.index.tensors(k) {
-            Some(tensors) if range == [0.0, 1.0] => Source::Tensors(tensors),
-            _ => Source::Poles,
-        };
-        let radius = segment.radius + size;
-        let error = squared_error(position, radius, product_steps(line.segment.degree + 1));
-        search_line(&line, &Given { source, error, radius }, memory, proof);
+        let here = proof.site.filter(|site| site.piece == k);
+        let foot = here.and_then(|site| Some((site.at[0], proof.jet_at(site)?.along(0))));
+        search_line(&line, &Given { source, error, radius, foot }, memory, proof);
     }
 }

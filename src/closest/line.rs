@@ -101,6 +101,8 @@ pub struct Given<'a> {
     pub error: f64,
     /// See `error`.
     pub radius: f64,
+    /// The best foot so far, when it lies on the line, and the jet there.
+    pub foot: Option<(f64, Jet1)>,
 }
 
 /// Searches the line. On return every point of it is at least `proof.target` away, or given up in `proof.lower`,
@@ -114,7 +116,7 @@ struct Walk<'a, 'b, 't> {
     memory: &'a mut LineMemory,
     proof: &'a mut Proof<'t>,
     slot: usize,
-    /// Where the last iteration ended.
+    /// Where the last iteration ended, here or before.
     last: Option<(f64, Jet1)>,
 }
 
@@ -152,6 +154,7 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
 
     fn run(&mut self, given: &Given) {
         let [low, high] = self.line.range;
+        self.last = given.foot;
         let mut first = Interval { low, high, ..Interval::default() };
         if self.open(given, &mut first) {
             return;
@@ -197,7 +200,8 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         }
         let (mut least, mut place, mut weight) = self.least_ratio(at);
         if self.proof.best == f64::INFINITY {
-            self.iterate(interval, place, self.line.range);
+            let start = self.vertex(interval, at, place);
+            self.iterate(start, self.line.range);
             interval.error += 8.0 * HALF_ULP * self.proof.target_squared;
         }
         if !self.proof.spend() || interval.high - interval.low < LEAST_WIDTH {
@@ -222,10 +226,11 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         }
         if interval.small {
             // What no test can tell here is below rounding.
-            self.iterate(interval, place, [interval.low, interval.high]);
+            let start = self.vertex(interval, at, place);
+            self.iterate(start, [interval.low, interval.high]);
             return Verdict::Closed;
         }
-        self.probe(interval, place);
+        self.probe(interval, at, place);
         Verdict::Halve
     }
 
@@ -270,10 +275,9 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         slopes
     }
 
-    /// Runs the local iteration in a range from the Greville abscissa of coefficient `place`.
-    fn iterate(&mut self, interval: &Interval, place: usize, [low, high]: [f64; 2]) -> (f64, Jet1) {
+    /// Runs the local iteration in a range.
+    fn iterate(&mut self, start: f64, [low, high]: [f64; 2]) -> (f64, Jet1) {
         let curve = (self.line.segment, self.line.query);
-        let start = self.abscissa(interval, place);
         let mut found = match &mut self.proof.trace {
             None => foot_on_curve(&curve, start, [low, high], self.line.method, None),
             Some(watch) => {
@@ -304,19 +308,20 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         (s, jet)
     }
 
-    /// The Greville abscissa of coefficient `place`.
-    fn abscissa(&self, interval: &Interval, place: usize) -> f64 {
-        let share = place as f64 / self.line.grid.degree.t as f64;
+    /// Where the distance is likely least, when coefficient `place` of slot `at` has the least ratio.
+    fn vertex(&self, interval: &Interval, at: usize, place: usize) -> f64 {
+        let [_, share] = self.line.grid.vertex(self.slot(at), place);
         interval.low + share * (interval.high - interval.low)
     }
 
     /// Looks at one point of an interval that is not closed yet, and iterates from it when it is nearer than the
     /// best: a target far too high makes `h` concave (by its term in C), and no test could ever close.
-    fn probe(&mut self, interval: &Interval, place: usize) {
-        let jet = self.line.segment.jet(self.abscissa(interval, place), self.line.query);
+    fn probe(&mut self, interval: &Interval, at: usize, place: usize) {
+        let s = self.vertex(interval, at, place);
+        let jet = self.line.segment.jet(s, self.line.query);
         self.proof.evaluations += 1;
         if self.proof.attracts(jet.d) {
-            self.iterate(interval, place, self.line.range);
+            self.iterate(s, self.line.range);
         }
     }
 
@@ -353,7 +358,8 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
             }
             return true;
         }
-        let (s, jet) = self.iterate(interval, place, [interval.low, interval.high]);
+        let start = self.vertex(interval, at, place);
+        let (s, jet) = self.iterate(start, [interval.low, interval.high]);
         if tying {
             return true;
         }

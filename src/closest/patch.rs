@@ -7,8 +7,8 @@
 mod sides;
 
 use super::certificate::{
-    foot_plane_separates, free_slope, least_height, nearness, plane_separates, slope_error,
-    squared_error, tilted_height, underflows, value_at,
+    LEAST_C, foot_plane_separates, free_slope, least_height, nearness, plane_separates,
+    slope_error, squared_error, tilted_height, underflows, value_at,
 };
 use super::line::LineMemory;
 use super::net::CutFree;
@@ -41,7 +41,7 @@ pub struct Sheet<'a> {
     pub patch: &'a Patch,
     /// Its number.
     pub piece: usize,
-    /// Tensors A, -2 B, C, when they are kept.
+    /// Tensors A, -2 B, C, when they are kept and the whole patch is searched.
     pub tensors: Option<&'a [f64]>,
     /// The query in the patch's coordinates.
     pub query: Vector,
@@ -59,6 +59,53 @@ pub struct Sheet<'a> {
     pub method: Method,
     /// Boxes after which the patch is put off.
     pub patience: u64,
+}
+
+impl Sheet<'_> {
+    fn far(&self) -> Far<'_> {
+        let (net, tensors, radius) = (self.net, self.tensors, self.patch.radius);
+        let (query, position, grid) = (self.query, self.position, self.grid);
+        Far { net, tensors, radius, query, position, grid }
+    }
+}
+
+/// A patch before anything is set up for its search.
+pub struct Far<'a> {
+    /// As of [`Sheet`].
+    pub net: BezierPatch<'a>,
+    /// As of [`Sheet`].
+    pub tensors: Option<&'a [f64]>,
+    /// Greatest distance of a pole from the origin of the patch.
+    pub radius: f64,
+    /// As of [`Sheet`].
+    pub query: Vector,
+    /// As of [`Sheet`].
+    pub position: f64,
+    /// As of [`Sheet`].
+    pub grid: &'a Grid,
+}
+
+impl Far<'_> {
+    /// Whether a plane shows that nothing is nearer than the target, or the coefficients that nothing is within the reach of
+    /// ties: most patches go here, and leave no trace.
+    pub fn decides(&self, proof: &Proof) -> bool {
+        if !proof.best.is_finite() {
+            return false;
+        }
+        let (net, count) = (&self.net, self.net.degree.count());
+        let (p, position) = (self.query, self.position);
+        if foot_plane_separates(net.poles, count, net.rational, p, proof, position) {
+            return true;
+        }
+        self.tensors.is_some_and(|tensors| {
+            let square = dot(p, p);
+            let radius = self.radius + square.sqrt();
+            let error = squared_error(position, radius, product_steps(count));
+            let far = proof.level_squared().max(proof.tie_squared());
+            let mu = far + error + 8.0 * HALF_ULP * far;
+            self.grid.product_beyond(tensors, p, square, mu, LEAST_C)
+        })
+    }
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -143,7 +190,9 @@ impl Walk<'_, '_, '_> {
         let mut first = Area { s: [s0, s1], t: [t0, t1], ..Area::default() };
         self.proof.spread = self.proof.spread.max(self.sheet.patch.spread);
         self.look_at_collapsed_sides();
-        if self.open(&mut first) {
+        if self.sheet.patch.has_collapsed() && self.sheet.far().decides(self.proof)
+            || self.open(&mut first)
+        {
             return true;
         }
         self.memory.waiting.push(first);
@@ -170,20 +219,12 @@ impl Walk<'_, '_, '_> {
 
     /// The coefficients of the whole range in slot 0; true when a plane already separates the query.
     fn open(&mut self, first: &mut Area) -> bool {
-        let (net, query, position) = (&self.sheet.net, self.sheet.query, self.sheet.position);
-        let count = net.degree.count();
-        let known = self.proof.best.is_finite();
-        if known
-            && foot_plane_separates(net.poles, count, net.rational, query, self.proof, position)
-        {
-            return true;
-        }
         match self.sheet.tensors {
-            Some(tensors) if self.sheet.range == [0.0, 1.0, 0.0, 1.0] => {
+            Some(tensors) => {
                 self.multiply(tensors, first);
                 false
             }
-            _ => self.load(first, 0),
+            None => self.load(first, 0),
         }
     }
 
@@ -258,13 +299,12 @@ impl Walk<'_, '_, '_> {
         }
         let (mut bound, mut place, mut weight) = self.least_ratio(at);
         let close = bound > self.proof.level_squared() && area.age > 0;
-        if area.age >= FRESH || close || self.proof.tying {
+        if area.age >= FRESH || close {
             if self.load(area, at) || self.is_beyond(area, at) {
                 return Verdict::Closed;
             }
             (bound, place, weight) = self.least_ratio(at);
-        } else if self.hard()
-            && area.age.is_multiple_of(TILT_EVERY)
+        } else if (self.proof.tying || self.hard() && area.age.is_multiple_of(TILT_EVERY))
             && self.cut_free(area).is_none()
         {
             return Verdict::Closed;
@@ -309,22 +349,9 @@ impl Walk<'_, '_, '_> {
         slopes
     }
 
-    /// Where the distance is likely least, when coefficient `place` of slot `at` has the least ratio: in each direction the
-    /// vertex of the parabola whose coefficients are the three around it (exact for a parabola of any degree).
+    /// Where the distance is likely least, when coefficient `place` of slot `at` has the least ratio.
     fn vertex(&self, area: &Area, at: usize, place: usize) -> [f64; 2] {
-        let width = self.degree.t + 1;
-        let (n, c) = (self.n(at), self.c(at));
-        let ratio = |k: usize| if c.is_empty() { n[k] } else { n[k] / c[k] };
-        let along = |degree: usize, i: usize, step: usize| {
-            let middle = i.clamp(1, degree - 1);
-            let k = place + middle * step - i * step;
-            let (a, b, c) = (ratio(k - step), ratio(k), ratio(k + step));
-            let bend = (a - b) + (c - b);
-            let offset = if bend > 0.0 { 0.5 * (a - c) / bend } else { i as f64 - middle as f64 };
-            ((middle as f64 + offset - 0.5) / (degree - 1) as f64).clamp(0.0, 1.0)
-        };
-        let s = along(self.degree.s, place / width, width);
-        let t = along(self.degree.t, place % width, 1);
+        let [s, t] = self.sheet.grid.vertex(self.slot(at), place);
         [area.s[0] + s * (area.s[1] - area.s[0]), area.t[0] + t * (area.t[1] - area.t[0])]
     }
 

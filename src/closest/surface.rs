@@ -1,25 +1,23 @@
 //! Nearest point of a surface.
 
 mod elementary;
+mod record;
 mod ties;
 
 use super::elementary::raise;
 use super::local::{LOCAL_FLAGS, WholeSurface, surface_start};
-use super::patch::{PatchMemory, Sheet, search_patch};
+use super::patch::{Far, PatchMemory, Sheet, search_patch};
 use super::proof::{Proof, Site, Watch, note_loose};
 use super::within::{Within, nothing_within};
 use super::{
-    FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, distance, far_foot, flag,
-    grained, is_bad, is_coarse, mark_inversion, rounding_floor, search_floor, tree_limit,
+    FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, far_foot, first_limit,
+    flag, grained, is_bad, is_coarse, mark_inversion, rounding_floor, search_floor, tree_limit,
     tree_slack, ulp,
 };
-use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, sub};
+use crate::bounds::{HALF_ULP, Vector, norm, sub};
 use crate::error::Error;
 use crate::index::{IndexedSurface, Span, SurfaceIndex, position_error, position_steps};
-use crate::knots::Knots;
 use crate::refine::{Method, Trace, foot_on_surface};
-
-use super::curve::LEAST_CREASE;
 
 /// Boxes that one patch may take before the others have had their turn: a difficult patch that does not even
 /// hold the foot must not use up the budget. One query in a thousand gets here.
@@ -238,110 +236,6 @@ impl IndexedSurface {
         *foot = best;
         certify(foot, proof, &index.frame, grained(allowed, grain, &index.frame));
     }
-
-    /// The record at a parameter pair, with the flags of the place.
-    pub(crate) fn foot_at(
-        &self,
-        index: &SurfaceIndex,
-        query: Vector,
-        at: [f64; 2],
-        range: [f64; 4],
-    ) -> FootPoint {
-        let surface = self.surface();
-        let ([u0, u1, v0, v1], mut at) = (surface.domain(), at);
-        let mut point = surface.evaluate(at[0], at[1]);
-        let closed = index.closed;
-        let (first, last) = ([u0, v0], [u1, v1]);
-        for k in 0..2 {
-            if closed[k] && at[k] == last[k] && range[2 * k] == first[k] {
-                // The canonical parameter of a seam is the start, when it is as near.
-                let mut start = at;
-                start[k] = first[k];
-                let there = surface.evaluate(start[0], start[1]);
-                let floor = rounding_floor(&index.frame, query, 0.0);
-                if distance(query, there) <= distance(query, point) + floor {
-                    (at, point) = (start, there);
-                }
-            }
-        }
-        let on = [at[0] == u0, at[0] == u1, at[1] == v0, at[1] == v1];
-        FootPoint {
-            u: at[0],
-            v: at[1],
-            point,
-            distance: distance(query, point),
-            lower_bound: 0.0,
-            flags: place_flags(on, closed, index.collapsed) | self.crease_flag(index, at, closed),
-            iterations: 0,
-        }
-    }
-
-    /// [`flag::CREASE`] where the tangent plane breaks across a knot line of multiplicity >= degree, or across a
-    /// seam.
-    fn crease_flag(&self, index: &SurfaceIndex, at: [f64; 2], closed: [bool; 2]) -> u32 {
-        let surface = self.surface();
-        let [u0, u1, v0, v1] = surface.domain();
-        let breaks = |knots: &Knots, x: f64, ends: [f64; 2], closed: bool| {
-            let at_end = x == ends[0] || x == ends[1];
-            if at_end { closed } else { knots.multiplicity(x) >= knots.degree() }
-        };
-        let in_u = breaks(surface.knots_u(), at[0], [u0, u1], closed[0]);
-        let in_v = breaks(surface.knots_v(), at[1], [v0, v1], closed[1]);
-        let bent = (in_u && index.normals_differ(at, 0)) || (in_v && index.normals_differ(at, 1));
-        if bent { flag::CREASE } else { 0 }
-    }
-}
-
-fn place_flags(on: [bool; 4], closed: [bool; 2], collapsed: [bool; 4]) -> u32 {
-    let (in_u, in_v) = (on[0] || on[1], on[2] || on[3]);
-    let mut flags = 0;
-    if in_u || in_v {
-        flags |= flag::EDGE;
-    }
-    if in_u && in_v {
-        flags |= flag::CORNER;
-    }
-    if (in_u && closed[0]) || (in_v && closed[1]) {
-        flags |= flag::SEAM;
-    }
-    if (0..4).any(|k| on[k] && collapsed[k]) {
-        flags |= flag::COLLAPSED;
-    }
-    flags
-}
-
-impl SurfaceIndex {
-    /// The pieces before and after `x` in direction `k`, of those that hold the other parameter; across the seam
-    /// at the ends of the domain.
-    fn normals_differ(&self, at: [f64; 2], k: usize) -> bool {
-        let span = |piece: usize, k: usize| {
-            if k == 0 { self.patches[piece].u } else { self.patches[piece].v }
-        };
-        let (rows, columns) = (self.patches.len() / self.columns, self.columns);
-        let stride = [columns, 1][k];
-        let count = [rows, columns][k];
-        let other_count = [rows, columns][1 - k];
-        let other_stride = [columns, 1][1 - k];
-        let other = (0..other_count)
-            .position(|i| at[1 - k] < span(i * other_stride, 1 - k).ends[1])
-            .unwrap_or(other_count - 1);
-        let base = other * other_stride;
-        let after = (0..count).find(|&i| span(base + i * stride, k).ends[0] == at[k]);
-        let (before, after) = match after {
-            Some(0) | None => (count - 1, 0),
-            Some(i) => (i - 1, i),
-        };
-        let normal = |piece: usize, y: f64| {
-            let x = span(piece, 1 - k).local(at[1 - k]);
-            let (s, t) = if k == 0 { (y, x) } else { (x, y) };
-            let jet = self.net(piece).jet(s, t, [0.0; 3]);
-            cross(jet.s, jet.t)
-        };
-        let a = normal(base + before * stride, 1.0);
-        let b = normal(base + after * stride, 0.0);
-        let size = norm(a) * norm(b);
-        size > 0.0 && (norm(cross(a, b)) > LEAST_CREASE * size || dot(a, b) < 0.0)
-    }
 }
 
 /// One global search on a surface.
@@ -535,11 +429,12 @@ impl SurfaceSearch<'_> {
 
     fn walk_once(&self, workspace: &mut Workspace, proof: &mut Proof) {
         let slack = tree_slack(self.query);
+        let first = self.first_limit(proof, slack);
         self.index.tree.start(&mut workspace.queue);
         workspace.deferred.clear();
         workspace.loose.clear();
         while let Some(next) = workspace.queue.pop() {
-            let limit = tree_limit(proof, slack);
+            let limit = tree_limit(proof, slack).min(first);
             if proof.is_trivial() || next.key > limit {
                 break;
             }
@@ -568,32 +463,45 @@ impl SurfaceSearch<'_> {
         }
     }
 
+    /// How far the walk needs to look before it has found anything: a corner of a near patch tells.
+    fn first_limit(&self, proof: &Proof, slack: f64) -> f64 {
+        if proof.best.is_finite() || self.options.domain.is_some() {
+            return f64::INFINITY;
+        }
+        let near = self.index.tree.glance(self.query);
+        near.map_or(f64::INFINITY, |k| {
+            first_limit(self.index.corner_distance(k, self.query), proof, slack)
+        })
+    }
+
     /// False when patience ran out before the patch was closed.
     fn search(&self, k: usize, patience: u64, memory: &mut PatchMemory, proof: &mut Proof) -> bool {
         let Some(range) = self.local_range(k) else { return true };
         let patch = &self.index.patches[k];
         let query = sub(self.query, patch.center);
-        let position = position_error(
-            self.steps,
-            self.index.rational,
-            patch.radius,
-            norm(query),
-            norm(self.query),
-        );
+        let (net, grid) = (self.index.net(k), &self.index.grid);
+        let (rational, size) = (self.index.rational, norm(self.query));
+        let position = position_error(self.steps, rational, patch.radius, norm(query), size);
+        let is_whole = range == [0.0, 1.0, 0.0, 1.0];
+        let tensors = self.index.tensors(k).filter(|_| is_whole);
+        let far = Far { net, tensors, radius: patch.radius, query, position, grid };
+        if !patch.has_collapsed() && far.decides(proof) {
+            return true;
+        }
         // The caller's range decides: its local image may end on a piece's side without being one's own.
         let [u0, u1, v0, v1] = self.range;
         let (u, v) = (patch.u.ends, patch.v.ends);
         let cut = [u0 >= u[0], u1 <= u[1], v0 >= v[0], v1 <= v[1]];
         let sheet = Sheet {
-            net: self.index.net(k),
+            net,
             patch,
             piece: k,
-            tensors: self.index.tensors(k),
+            tensors,
             query,
             position,
             range,
             border: [0, 1, 2, 3].map(|e| patch.border[e] || cut[e]),
-            grid: &self.index.grid,
+            grid,
             edge_grids: &self.index.edge_grids,
             method: self.options.method,
             patience,

@@ -69,6 +69,52 @@ impl Kernel for Multiply<'_> {
     }
 }
 
+/// Whether all `N > mu C` of what [`Multiply`] would make, and no C is less than `least_c`.
+pub struct ProductBeyond<'a> {
+    pub grid: &'a Grid,
+    pub tensors: &'a [f64],
+    pub p: Vector,
+    pub square: f64,
+    pub mu: f64,
+    pub least_c: f64,
+}
+
+impl Kernel for ProductBeyond<'_> {
+    type Out = bool;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) -> bool {
+        let Self { grid, tensors, .. } = self;
+        let size = padded(grid.count);
+        let (x, y) = (S::F8::splat(self.p[0]), S::F8::splat(self.p[1]));
+        let (z, square) = (S::F8::splat(self.p[2]), S::F8::splat(self.square));
+        let mu = S::F8::splat(self.mu);
+        let [mut least, mut least_c] = [S::F8::splat(f64::INFINITY); 2];
+        assert!(tensors.len() >= size * if grid.rational { 5 } else { 4 });
+        let mut k = 0;
+        while k < size {
+            // SAFETY: the length was checked; tables have room for whole vectors.
+            unsafe {
+                let a = eight::<S>(tensors, k);
+                let b_x = eight::<S>(tensors, size + k);
+                let b_y = eight::<S>(tensors, 2 * size + k);
+                let b_z = eight::<S>(tensors, 3 * size + k);
+                let mask = eight::<S>(&grid.value, k);
+                let c = if grid.rational {
+                    eight::<S>(tensors, 4 * size + k)
+                } else {
+                    S::F8::splat(1.0)
+                };
+                let n = a + (x * b_x + y * b_y) + (z * b_z + square * c);
+                least = (n - mu * c + mask).min(least);
+                least_c = (c + mask).min(least_c);
+            }
+            k += LANES;
+        }
+        least.least() > 0.0 && least_c.least() >= self.least_c
+    }
+}
+
 /// Whether all `N > mu C`, for two values of `mu`.
 pub struct Beyond<'a> {
     pub grid: &'a Grid,

@@ -450,13 +450,17 @@ impl<'a> Search<'a> {
     }
 
     fn push(&mut self, sheet: &Sheet, at: [f64; 2], zero: &Zero<2>, source: Source) {
-        let own = (source == Source::Inside).then(|| {
-            let mut own = Signs::default();
-            own.patch(&sheet.jet(at), [0.5; 2], sheet.position, [None; 2]);
-            own
-        });
+        let (place, at) = (at, self.global(sheet, at));
+        let own = match source {
+            Source::Inside => {
+                let mut own = Signs::default();
+                own.patch(&sheet.jet(place), [0.5; 2], sheet.position, [None; 2]);
+                Some(own)
+            }
+            Source::Border => self.signs_within(sheet, place, at),
+            _ => None,
+        };
         let area = self.area(sheet, zero.low, zero.high);
-        let at = self.global(sheet, at);
         let patch = &self.index.patches[sheet.piece];
         let share = if source == Source::Flat { 0.0 } else { SAME };
         let grain = [patch.u, patch.v].map(|span| share * (span.ends[1] - span.ends[0]));
@@ -485,6 +489,25 @@ impl<'a> Search<'a> {
             signs.patch(&sheet.jet(local), ends, sheet.position, sharp);
         }
         signs
+    }
+
+    /// The signs of a zero on a side that lies between two knots and only in the caller's parameters on one of them: those of the
+    /// pieces between these knots, at the place itself.
+    fn signs_within(&self, sheet: &Sheet, place: [f64; 2], at: [f64; 2]) -> Option<Signs> {
+        let spans = |piece: usize| [self.index.patches[piece].u, self.index.patches[piece].v];
+        let own = spans(sheet.piece);
+        let k = (0..2).find(|&k| end_of(place[k]) == 0.0 && own[k].ends.contains(&at[k]))?;
+        let mut signs = Signs::default();
+        for (piece, mut local) in self.index.around(at, self.range) {
+            let Some(beside) = self.sheet(piece) else { continue };
+            if spans(piece)[k].ends == own[k].ends {
+                local[k] = place[k];
+                let (_, mut ends) = self.ended(at, local);
+                ends[k] = place[k];
+                signs.patch(&beside.jet(local), ends, beside.position, [None; 2]);
+            }
+        }
+        Some(signs)
     }
 
     /// The signs along one parameter alone.

@@ -6,11 +6,11 @@ use super::piece::{
 };
 use crate::analytic::Analytic;
 use crate::bezier::{Bidegree, extraction};
-use crate::bounds::{Aabb, HALF_ULP, Vector, add, extent};
+use crate::bounds::{Aabb, HALF_ULP, Vector, add, extent, sub};
 use crate::coefficients::Grid;
 use crate::curve::Curve;
 use crate::error::Error;
-use crate::jet::{BezierSegment, Lane, lanes};
+use crate::jet::{BezierSegment, Lane, lanes, pole_distance};
 use crate::knots::Knots;
 use crate::simd::Level;
 use crate::tree::Tree;
@@ -66,7 +66,7 @@ impl CurveIndex {
         let mut index = Self {
             frame: Frame::new(curve.poles(), curve.bounding_box()),
             segments: reserved(spans.len())?,
-            tree: Tree::new(&[], 0, 0),
+            tree: Tree::new(&[], 0, 0, level),
             closed: curve.is_closed(),
             analytic: None,
             degree: p,
@@ -88,7 +88,7 @@ impl CurveIndex {
                 push_tensors(net, degree, rational, &mut index.tensors);
             }
         }
-        index.tree = Tree::new(&boxes, boxes.len(), 1);
+        index.tree = Tree::new(&boxes, boxes.len(), 1, level);
         Ok(index)
     }
 
@@ -166,6 +166,12 @@ impl CurveIndex {
     pub fn tensors(&self, k: usize) -> Option<&[f64]> {
         let width = tensor_len(Bidegree { s: 0, t: self.degree }, self.rational);
         self.tensors.get(k * width..(k + 1) * width)
+    }
+
+    /// Distance from `query` to the nearer end of segment `k`, in the index's coordinates and but for rounding.
+    pub fn end_distance(&self, k: usize, query: Vector) -> f64 {
+        let (lanes, q) = (self.net(k).lanes, sub(query, self.segments[k].center));
+        pole_distance(&lanes[0], q).min(pole_distance(&lanes[lanes.len() - 1], q))
     }
 
     /// Bytes held.

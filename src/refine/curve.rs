@@ -49,7 +49,7 @@ pub fn foot_on_curve(
         }
         let (raw, second_order) = raw_step(&jet, method);
         let mut next = (s + raw).clamp(low, high);
-        if (next - s).abs() <= NO_STEP * width {
+        if (next - s).abs() <= NO_STEP * next.abs() {
             break;
         }
         let last = second_order && (next - s).abs() <= LAST_STEP * width;

@@ -85,7 +85,7 @@ impl Walk<'_, '_, '_> {
         };
         let c = if rational { &c[..] } else { &[] };
         let source = Source::Products(n, c);
-        let given = Given { source, error: area.error, radius: area.radius };
+        let given = Given { source, error: area.error, radius: area.radius, foot: None };
         search_line(&line, &given, &mut self.memory.line, self.proof);
         self.memory.edge = memory;
     }

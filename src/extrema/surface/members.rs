@@ -149,7 +149,7 @@ impl Search<'_> {
             return Some(Member { foot, u: [u0, u1], v: [v0, v1], kind, nature });
         }
         let signs: Signs = candidate.own.unwrap_or_else(|| self.signs(candidate.at));
-        if candidate.own.is_none() && signs.passes() {
+        if signs.passes() {
             // A zero beyond the end of its piece, moved onto it: the neighbour has it, or nobody.
             return None;
         }

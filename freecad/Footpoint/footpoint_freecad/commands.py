@@ -1,0 +1,273 @@
+"""The commands of the workbench."""
+
+import FreeCAD
+import FreeCADGui as Gui
+from PySide import QtCore, QtGui
+
+from . import measure, objects
+from .settings import resource
+
+translate = FreeCAD.Qt.translate if hasattr(FreeCAD, "Qt") else lambda context, text, *_: text
+CONTEXT = "Footpoint"
+
+
+def QT_TRANSLATE_NOOP(context, text):
+    """Marks a text for the translators."""
+    return text
+
+
+def say(text):
+    """A message box, and the report view."""
+    FreeCAD.Console.PrintWarning(f"Footpoint: {text}\n")
+    QtGui.QMessageBox.warning(Gui.getMainWindow(), "Footpoint", text)
+
+
+def selected(kinds):
+    """The selected object, its face or edge ("" for the whole), the picked point, and the point of a selected vertex."""
+    target = query = picked = None
+    for one in Gui.Selection.getSelectionEx("", 0):
+        names = one.SubElementNames or [""]
+        for number, name in enumerate(names):
+            short = name.split(".")[-1]
+            if not hasattr(one.Object, "Shape"):
+                continue
+            if short.startswith("Vertex"):
+                query = one.Object.Shape.getElement(short).Point
+            elif target is None and (any(short.startswith(kind) for kind in kinds if kind) or (not short and "" in kinds)):
+                target = (one.Object, short)
+                picked = one.PickedPoints[number] if number < len(one.PickedPoints) else None
+    return target, query if query is not None else picked
+
+
+def ask_point(start):
+    """A point that is typed, or None."""
+    dialog = QtGui.QDialog(Gui.getMainWindow())
+    dialog.setObjectName("FootpointPoint")
+    dialog.setWindowTitle(translate(CONTEXT, "Point"))
+    form = QtGui.QFormLayout(dialog)
+    boxes = []
+    for name, value in zip("xyz", start or (0, 0, 0)):
+        box = QtGui.QDoubleSpinBox()
+        box.setDecimals(9)
+        box.setRange(-1e9, 1e9)
+        box.setValue(value)
+        box.setSuffix(" mm")
+        form.addRow(name, box)
+        boxes.append(box)
+    buttons = QtGui.QDialogButtonBox(QtGui.QDialogButtonBox.Ok | QtGui.QDialogButtonBox.Cancel)
+    buttons.accepted.connect(dialog.accept)
+    buttons.rejected.connect(dialog.reject)
+    form.addRow(buttons)
+    return FreeCAD.Vector(*(box.value() for box in boxes)) if dialog.exec_() else None
+
+
+class _Command:
+    """What the commands have in common."""
+
+    icon = menu = tip = ""
+    kinds = ()
+    wanted = ""
+
+    def GetResources(self):
+        return {"Pixmap": resource("icons", self.icon), "MenuText": translate(CONTEXT, self.menu), "ToolTip": translate(CONTEXT, self.tip)}
+
+    def IsActive(self):
+        return FreeCAD.ActiveDocument is not None
+
+    def Activated(self):
+        target, point = selected(self.kinds)
+        if target is None:
+            say(translate(CONTEXT, self.wanted))
+            return
+        try:
+            self.run(target, point)
+        except (ImportError, ValueError, TypeError, NotImplementedError, RuntimeError, OSError) as error:
+            if FreeCAD.ActiveDocument is not None:
+                FreeCAD.ActiveDocument.abortTransaction()
+            say(str(error))
+
+    def result(self, kind, name, target, query=None):
+        """Adds a result in one step that can be undone."""
+        document = target[0].Document
+        document.openTransaction(name)
+        made = objects.make(kind, name, *target, query=query)
+        document.commitTransaction()
+        return made
+
+
+class Invert(_Command):
+    """Parameters of a point."""
+
+    icon = "Footpoint_Invert.svg"
+    menu = QT_TRANSLATE_NOOP("Footpoint", "Invert point")
+    tip = QT_TRANSLATE_NOOP("Footpoint", "Parameters of a point on the selected face or edge, and all its preimages")
+    kinds = ("Face", "Edge")
+    wanted = QT_TRANSLATE_NOOP("Footpoint", "Select a face or an edge, by a click at the point; or with it a vertex.")
+
+    def run(self, target, point):
+        point = point if point is not None else ask_point(None)
+        if point is not None:
+            self.result(objects.InvertResult, "Invert", target, point)
+
+
+class Closest(_Command):
+    """The nearest point."""
+
+    icon = "Footpoint_Closest.svg"
+    menu = QT_TRANSLATE_NOOP("Footpoint", "Closest point")
+    tip = QT_TRANSLATE_NOOP("Footpoint", "Nearest point of the selected face, edge or part to a point, with the connecting line and its proof")
+    kinds = ("Face", "Edge", "")
+    wanted = QT_TRANSLATE_NOOP("Footpoint", "Select a face, an edge or a part, and a vertex or type a point.")
+
+    def run(self, target, point):
+        vertex = any(name.split(".")[-1].startswith("Vertex") for one in Gui.Selection.getSelectionEx("", 0) for name in one.SubElementNames)
+        query = point if vertex else ask_point(tuple(point) if point is not None else None)
+        if query is not None:
+            self.result(objects.ClosestResult, "Closest", target, query)
+
+
+class Check(_Command):
+    """Seams and poles."""
+
+    icon = "Footpoint_Check.svg"
+    menu = QT_TRANSLATE_NOOP("Footpoint", "Check seams and poles")
+    tip = QT_TRANSLATE_NOOP("Footpoint", "Closed directions and collapsed edges of the selected face, by geometry")
+    kinds = ("Face",)
+    wanted = QT_TRANSLATE_NOOP("Footpoint", "Select a face.")
+
+    def run(self, target, point):
+        found = self.result(objects.SeamsResult, "Seams", target)
+        for line in found.Report:
+            FreeCAD.Console.PrintMessage(f"Footpoint: {line}\n")
+
+
+class Deviation(_Command):
+    """Deviation map."""
+
+    icon = "Footpoint_Deviation.svg"
+    menu = QT_TRANSLATE_NOOP("Footpoint", "Deviation map")
+    tip = QT_TRANSLATE_NOOP("Footpoint", "Signed distances of a point cloud, a mesh or a file from the selected face or part, as coloured points")
+    kinds = ("Face", "")
+    wanted = QT_TRANSLATE_NOOP("Footpoint", "Select a face or a part, and with it a point cloud or a mesh; without one you are asked for a file.")
+
+    def run(self, target, point):
+        clouds = [one.Object for one in Gui.Selection.getSelectionEx("", 0) if hasattr(one.Object, "Points") or hasattr(one.Object, "Mesh")]
+        source = clouds[0] if clouds else QtGui.QFileDialog.getOpenFileName(
+            Gui.getMainWindow(), translate(CONTEXT, "Points"), "", "*.csv *.xyz *.asc *.txt *.npy *.ply *.stl")[0]
+        if not source:
+            return
+        shape = target[0].Shape.getElement(target[1]) if target[1] else target[0].Shape
+        found = with_dialog(shape, measure.points_of(source))
+        if found is None:
+            return
+        target[0].Document.openTransaction("Deviation")
+        made = objects.make_deviation(*target, found, getattr(source, "Points", None))
+        target[0].Document.commitTransaction()
+        Legend.show_for(found, made.Label)
+
+
+def with_dialog(shape, points):
+    """The deviation under a progress dialog; None when it was cancelled."""
+    from footpoint import Cancelled
+
+    dialog = QtGui.QProgressDialog(translate(CONTEXT, "Nearest points"), translate(CONTEXT, "Cancel"), 0, max(len(points), 1), Gui.getMainWindow())
+    dialog.setObjectName("FootpointProgress")
+    dialog.setWindowModality(QtCore.Qt.WindowModal)
+    dialog.setMinimumDuration(300)
+
+    def progress(done, total):
+        dialog.setValue(min(done, dialog.maximum() - 1))
+        QtGui.QApplication.processEvents()
+
+    try:
+        return measure.deviation(shape, points, progress, dialog.wasCanceled)
+    except Cancelled:
+        return None
+    finally:
+        dialog.close()
+
+
+class Bar(QtGui.QWidget):
+    """The colours with their numbers."""
+
+    def __init__(self, limit):
+        super().__init__()
+        self.limit = limit
+        self.setMinimumSize(150, 230)
+
+    def paintEvent(self, event):
+        painter = QtGui.QPainter(self)
+        top, height = 12, self.height() - 24
+        for row in range(height):
+            painter.setPen(QtGui.QColor.fromRgbF(*(float(part) for part in measure.colours(1 - 2 * row / max(height - 1, 1)))))
+            painter.drawLine(10, top + row, 34, top + row)
+        painter.setPen(self.palette().color(QtGui.QPalette.WindowText))
+        for part in (1, 0.5, 0, -0.5, -1):
+            painter.drawText(42, int(top + (1 - part) / 2 * height) + 4, f"{part * self.limit:+.4g} mm")
+        painter.end()
+
+
+class Legend(QtGui.QDockWidget):
+    """Colour bar, statistics, export of a deviation map."""
+
+    def __init__(self, found, title):
+        super().__init__(translate(CONTEXT, "Deviation map"), Gui.getMainWindow())
+        self.setObjectName("FootpointLegend")
+        self.found = found
+        inner = QtGui.QWidget()
+        layout = QtGui.QVBoxLayout(inner)
+        layout.addWidget(Bar(found.limit()), 1)
+        numbers = {"time": f"{found.seconds:.2f} s", **found.statistics()}
+        text = "\n".join(f"{name}: {value if isinstance(value, str) else format(value, ',d' if isinstance(value, int) else '.4g')}" for name, value in numbers.items())
+        label = QtGui.QLabel(text)
+        label.setTextInteractionFlags(QtCore.Qt.TextSelectableByMouse)
+        layout.addWidget(label)
+        for name, function in ((QT_TRANSLATE_NOOP("Footpoint", "Save as CSV"), self.save_csv), (QT_TRANSLATE_NOOP("Footpoint", "Save picture"), self.save_picture)):
+            button = QtGui.QPushButton(translate(CONTEXT, name))
+            button.clicked.connect(lambda _=False, function=function: function())
+            layout.addWidget(button)
+        self.setWidget(inner)
+
+    @staticmethod
+    def show_for(found, title):
+        """Shows the legend of a map, in place of the one before."""
+        window = Gui.getMainWindow()
+        for old in window.findChildren(QtGui.QDockWidget, "FootpointLegend"):
+            window.removeDockWidget(old)
+            old.deleteLater()
+        legend = Legend(found, title)
+        window.addDockWidget(QtCore.Qt.RightDockWidgetArea, legend)
+        return legend
+
+    def save_csv(self, path=""):
+        """Asks for a file when none is given."""
+        path = path or QtGui.QFileDialog.getSaveFileName(self, "CSV", "deviation.csv", "*.csv")[0]
+        if path:
+            self.found.save_csv(path)
+
+    def save_picture(self, path=""):
+        """The view with the colour bar beside it."""
+        path = path or QtGui.QFileDialog.getSaveFileName(self, "PNG", "deviation.png", "*.png")[0]
+        if not path:
+            return
+        view = Gui.ActiveDocument.ActiveView
+        view.saveImage(path, 1400, 1000, "White")
+        picture = QtGui.QPixmap(path)
+        side = self.widget().grab()
+        both = QtGui.QPixmap(picture.width() + side.width(), max(picture.height(), side.height()))
+        both.fill(QtGui.QColor("white"))
+        painter = QtGui.QPainter(both)
+        painter.drawPixmap(0, 0, picture)
+        painter.drawPixmap(picture.width(), 0, side)
+        painter.end()
+        both.save(path)
+
+
+COMMANDS = {"Footpoint_Invert": Invert, "Footpoint_Closest": Closest, "Footpoint_Deviation": Deviation, "Footpoint_Check": Check}
+
+
+def register():
+    """Tells FreeCAD the commands; returns their names."""
+    for name, kind in COMMANDS.items():
+        Gui.addCommand(name, kind())
+    return list(COMMANDS)

@@ -1,0 +1,152 @@
+"""Results as document objects: they know their source, are computed again when it changes, and are saved with the document."""
+
+import FreeCAD
+import Part
+
+from . import measure
+
+GROUP = "Footpoint"
+
+
+class _Result:
+    """What the results have in common: a link to the face or edge, and how to compute."""
+
+    def __init__(self, obj, source, sub):
+        obj.addProperty("App::PropertyLinkSub", "Source", "Footpoint", "The face, edge or part")
+        obj.Source = (source, [sub] if sub else [])
+        self.properties(obj)
+        obj.Proxy = self
+
+    def shape(self, obj):
+        """The selected face or edge, or the whole shape."""
+        source, subs = obj.Source
+        return source.Shape.getElement(subs[0]) if subs and subs[0] else source.Shape
+
+    def dumps(self):
+        return None
+
+    def loads(self, state):
+        return None
+
+    __getstate__, __setstate__ = dumps, loads
+
+
+def _add(obj, kind, name, text):
+    obj.addProperty(f"App::Property{kind}", name, "Footpoint", text)
+    obj.setEditorMode(name, 1)
+
+
+def _proof(obj):
+    _add(obj, "Float", "Distance", "From the query to the nearest point, in mm")
+    _add(obj, "Float", "LowerBound", "Proven: nothing is nearer than this, in mm")
+    _add(obj, "Bool", "Proven", "Whether the distance is proven to be the least")
+
+
+class InvertResult(_Result):
+    """Parameters of a point on a face or edge, and all preimages."""
+
+    def properties(self, obj):
+        obj.addProperty("App::PropertyVector", "Query", "Footpoint", "The point, in mm")
+        _proof(obj)
+        _add(obj, "FloatList", "Parameters", "u, v on a surface, u on a curve")
+        _add(obj, "Bool", "OnShape", "Whether the point is on the shape within the tolerance")
+        _add(obj, "VectorList", "Preimages", "All parameters of the point: u, v, 0")
+        _add(obj, "Bool", "Complete", "Whether no preimage can be missing")
+
+    def execute(self, obj):
+        found = measure.invert(self.shape(obj), obj.Query)
+        obj.Distance, obj.LowerBound, obj.Proven = found.distance, found.lower_bound, found.proven
+        obj.Parameters, obj.OnShape, obj.Complete = found.parameters, found.on_shape, found.complete
+        obj.Preimages = [FreeCAD.Vector(*(list(value) + [0.0] * (3 - len(value)))) for value in found.preimages]
+        obj.Shape = Part.Vertex(FreeCAD.Vector(*found.point))
+        numbers = ", ".join(f"{name} = {value:.9g}" for name, value in zip("uv", found.parameters))
+        obj.Label = f"Invert: {numbers}; {len(found.preimages)} preimage{'s' if len(found.preimages) != 1 else ''}"
+
+
+class ClosestResult(_Result):
+    """The nearest point of a face, edge or part, with the connecting line."""
+
+    def properties(self, obj):
+        obj.addProperty("App::PropertyVector", "Query", "Footpoint", "The point, in mm")
+        _proof(obj)
+        _add(obj, "Vector", "Foot", "The nearest point, in mm")
+
+    def execute(self, obj):
+        found = measure.closest(self.shape(obj), obj.Query)
+        obj.Distance, obj.LowerBound, obj.Proven = float(found.distance[0]), float(found.lower_bound[0]), bool(found.proven[0])
+        obj.Foot = FreeCAD.Vector(*found.point[0].tolist())
+        apart = (obj.Foot - obj.Query).Length > 1e-9
+        obj.Shape = Part.makeLine(obj.Query, obj.Foot) if apart else Part.Vertex(obj.Foot)
+        obj.Label = f"Closest: {obj.Distance:.9g} mm, {'proven' if obj.Proven else 'not proven'}"
+
+
+class SeamsResult(_Result):
+    """Seams and poles of the surface of a face."""
+
+    def properties(self, obj):
+        _add(obj, "Bool", "ClosedU", "Whether the surface closes in u")
+        _add(obj, "Bool", "ClosedV", "Whether the surface closes in v")
+        _add(obj, "StringList", "Collapsed", "Edges that are one point")
+        _add(obj, "StringList", "Report", "What was found")
+
+    def execute(self, obj):
+        found = measure.seams_and_poles(self.shape(obj))
+        obj.ClosedU, obj.ClosedV, obj.Collapsed, obj.Report = found.closed_u, found.closed_v, found.collapsed, found.text
+        pieces = [Part.makePolygon([FreeCAD.Vector(*point) for point in seam.tolist()]) for seam in found.seams]
+        pieces += [Part.Vertex(FreeCAD.Vector(*pole)) for pole in found.poles]
+        obj.Shape = Part.makeCompound(pieces)
+        obj.Label = f"Seams: {len(found.seams)}, poles: {len(found.poles)}"
+
+
+def group(document):
+    """The folder of the results in the tree."""
+    found = document.getObject(GROUP)
+    return found if found is not None else document.addObject("App::DocumentObjectGroup", GROUP)
+
+
+def make(kind, name, source, sub="", query=None):
+    """Adds a result for a face or edge ("Face1") of an object, computed."""
+    document = source.Document
+    obj = document.addObject("Part::FeaturePython", name)
+    kind(obj, source, sub)
+    if query is not None:
+        obj.Query = FreeCAD.Vector(*query)
+    if FreeCAD.GuiUp:
+        from . import views
+
+        views.show(obj)
+    try:
+        kind.execute(obj.Proxy, obj)
+    except Exception:
+        document.removeObject(obj.Name)
+        raise
+    obj.purgeTouched()
+    group(document).addObject(obj)
+    return obj
+
+
+def make_deviation(source, sub, found, cloud=None):
+    """Adds a deviation map: coloured points, statistics. `cloud` has the same points for FreeCAD; None: it is made."""
+    import Points
+
+    document = source.Document
+    if cloud is None:
+        cloud = Points.Points()
+        cloud.addPoints([FreeCAD.Vector(*row) for row in found.points.tolist()])
+    obj = document.addObject("Points::FeatureCustom", "Deviation")
+    obj.Points = cloud
+    obj.addProperty("App::PropertyColorList", "Color", "Footpoint", "Colours of the points")
+    obj.Color = [tuple(row) for row in found.colours().tolist()]
+    obj.addProperty("App::PropertyLinkSub", "Source", "Footpoint", "The face or part")
+    obj.Source = (source, [sub] if sub else [])
+    texts = {"count": "Points", "proven": "Points whose distance is proven", "least": "Least deviation, mm", "greatest": "Greatest deviation, mm",
+             "mean": "Mean deviation, mm", "rms": "Root of the mean square, mm", "p95": "95 % of the magnitudes are below, mm"}
+    for name, value in found.statistics().items():
+        _add(obj, "Integer" if isinstance(value, int) else "Float", name.capitalize(), texts[name])
+        setattr(obj, name.capitalize(), value)
+    obj.Label = f"Deviation: {len(found.points)} points, rms {found.statistics().get('rms', 0):.4g} mm"
+    group(document).addObject(obj)
+    if FreeCAD.GuiUp:
+        obj.ViewObject.DisplayMode = "Color"
+        obj.ViewObject.PointSize = 2
+    return obj

@@ -1,0 +1,196 @@
+"""Run inside FreeCAD's window: presses the buttons, checks the results, keeps screenshots. FOOTPOINT_OUT is the folder for them.
+
+Writes gui.txt there: one line a check, the last "done".
+"""
+
+import os
+import time
+import traceback
+
+import FreeCAD
+import FreeCADGui as Gui
+import numpy as np
+import Part
+from PySide import QtCore, QtGui
+
+OUT = os.environ["FOOTPOINT_OUT"]
+COUNT = int(os.environ.get("FOOTPOINT_POINTS", "20000"))
+from footpoint_freecad import commands, settings
+
+V = FreeCAD.Vector
+log = open(os.path.join(OUT, "gui.txt"), "w")
+
+
+def check(what, true):
+    log.write(f"{'ok' if true else 'WRONG'} {what}\n")
+    log.flush()
+
+
+def press(name):
+    """Presses the button of the tool bar as a user does."""
+    text = Gui.Command.get(name).getInfo()["menuText"]
+    for bar in Gui.getMainWindow().findChildren(QtGui.QToolBar, "Footpoint"):
+        for action in bar.actions():
+            button = bar.widgetForAction(action)
+            if action.text().replace("&", "") == text and button is not None:
+                check(f"{name}: button can be pressed", button.isEnabled())
+                button.click()
+                return
+    check(f"{name}: has a button", False)
+
+
+def shot(name):
+    for _ in range(5):
+        QtGui.QApplication.processEvents()
+        time.sleep(0.1)
+    QtGui.QApplication.primaryScreen().grabWindow(0).save(os.path.join(OUT, name))  # the view too, which a widget grab leaves out
+
+
+def answer_dialog(values):
+    """Types a point into the dialog that the next button opens."""
+    def fill():
+        dialog = QtGui.QApplication.activeModalWidget()
+        check("a point is asked for", dialog is not None and dialog.objectName() == "FootpointPoint")
+        for box, value in zip(dialog.findChildren(QtGui.QDoubleSpinBox), values):
+            box.setValue(value)
+        dialog.accept()
+    QtCore.QTimer.singleShot(800, fill)
+
+
+def part():
+    """A bracket: a lofted horn on a bored plate with rounded corners."""
+    plate = Part.makeBox(80, 60, 12)
+    plate = plate.makeFillet(10, [edge for edge in plate.Edges if edge.Length == 12])
+    rings = [Part.Wire([Part.makeCircle(radius, V(x, 30, z), V(tilt, 0, 1))]) for radius, x, z, tilt in ((18, 40, 6, 0), (11, 42, 30, 0.2), (13, 50, 52, 0.4), (20, 62, 70, 0.7))]
+    horn = Part.makeLoft(rings, True)
+    bores = [Part.makeCylinder(4, 40, V(x, y, -10)) for x in (12, 68) for y in (12, 48)]
+    whole = plate.fuse(horn)
+    for bore in bores:
+        whole = whole.cut(bore)
+    return whole.removeSplitter()
+
+
+def scan(shape, count):
+    """Noisy points near the surface, as a scanner gives them."""
+    rng = np.random.default_rng(7)
+    points, triangles = shape.tessellate(0.05)
+    points = np.array([tuple(point) for point in points])
+    corners = points[np.array(triangles)]
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    area = np.linalg.norm(across, axis=1)
+    pick = rng.choice(len(area), count, p=area / area.sum())
+    a, b = rng.random((2, count))
+    a, b = np.where(a + b > 1, 1 - a, a), np.where(a + b > 1, 1 - b, b)
+    one = corners[pick]
+    at = one[:, 0] + a[:, None] * (one[:, 1] - one[:, 0]) + b[:, None] * (one[:, 2] - one[:, 0])
+    bulge = 0.25 * np.sin(at[:, 0] / 9) * np.cos(at[:, 2] / 11) + rng.normal(0, 0.03, count)
+    return at + across[pick] / area[pick, None] * bulge[:, None]
+
+
+def steps():
+    document = FreeCAD.newDocument("Demo")
+    Gui.activateWorkbench("FootpointWorkbench")
+    page = Gui.PySideUic.loadUi(settings.resource("ui", "preferences.ui"))
+    check("the preferences page loads", page.findChild(QtGui.QDoubleSpinBox, "tolerance") is not None)
+    yield
+    source = document.addObject("Part::Feature", "Bracket")
+    source.Shape = part()
+    ball = document.addObject("Part::Feature", "Ball")
+    ball.Shape = Part.makeSphere(10, V(-30, 30, 10))
+    document.recompute()
+    Gui.ActiveDocument.ActiveView.viewIsometric()
+    Gui.SendMsgToActiveView("ViewFit")
+    yield
+    Gui.Selection.clearSelection()
+    Gui.Selection.addSelection(document.Name, "Ball", "Face1", -20, 30, 10)
+    press("Footpoint_Invert")
+    found = document.getObject("Invert")
+    check("invert: on the shape, proven", found is not None and found.OnShape and found.Proven)
+    check("invert: both sides of the seam", len(found.Preimages) == 2 and abs(found.Preimages[1].x - 2 * np.pi) < 1e-9)
+    check("invert: in the tree", found in document.getObject("Footpoint").Group)
+    yield
+    Gui.Selection.clearSelection()
+    told = []
+    plain, commands.say = commands.say, told.append
+    press("Footpoint_Check")
+    check("seams: says what to select", told == ["Select a face."])
+    commands.say = plain
+    Gui.Selection.addSelection(document.Name, "Ball", "Face1")
+    press("Footpoint_Check")
+    found = document.getObject("Seams")
+    check("seams: one seam, two poles", found.ClosedU and not found.ClosedV and len(found.Collapsed) == 2)
+    yield
+    Gui.Selection.clearSelection()
+    Gui.Selection.addSelection(document.Name, "Bracket")
+    answer_dialog((100, 90, 50))
+    press("Footpoint_Closest")
+    found = document.getObject("Closest")
+    expected = source.Shape.distToShape(Part.Vertex(V(100, 90, 50)))[0]
+    check(f"closest: {found.Distance:.9f} as FreeCAD's distance {expected:.9f}, proven", abs(found.Distance - expected) < 1e-6 and found.Proven)
+    ball.Placement.Base = V(0, 0, 5)
+    document.recompute()
+    check("invert: computed again when the source moves", abs(document.getObject("Invert").Distance - 5) > 1e-3 or not document.getObject("Invert").OnShape)
+    Gui.SendMsgToActiveView("ViewFit")
+    shot("freecad_results.png")
+    yield
+    import Points
+
+    at = scan(source.Shape, COUNT)
+    cloud = Points.Points()
+    cloud.addPoints([V(*row) for row in at.tolist()])
+    scanned = document.addObject("Points::Feature", "Scan")
+    scanned.Points = cloud
+    scanned.ViewObject.Visibility = False
+    for name in ("Ball", "Invert", "Seams", "Closest"):
+        document.getObject(name).ViewObject.Visibility = False
+    yield
+    Gui.Selection.clearSelection()
+    Gui.Selection.addSelection(document.Name, "Bracket")
+    Gui.Selection.addSelection(document.Name, "Scan")
+    start, busy = time.perf_counter(), time.process_time()
+    press("Footpoint_Deviation")
+    QtGui.QApplication.processEvents()
+    whole, busy = time.perf_counter() - start, time.process_time() - busy
+    found = document.getObject("Deviation")
+    legend = Gui.getMainWindow().findChild(QtGui.QDockWidget, "FootpointLegend")
+    check(f"deviation: {found.Count} points, {found.Proven} proven, rms {found.Rms:.6f}", found.Count == COUNT and 0.05 < found.Rms < 0.3 and found.Proven > 0.999 * COUNT)
+    check(f"deviation: {legend.found.seconds:.2f} s of computing, {whole:.2f} s from the button to the coloured points, {busy:.2f} s of processor time", True)
+    source.ViewObject.Visibility = False
+    Gui.Selection.clearSelection()
+    Gui.SendMsgToActiveView("ViewFit")
+    shot("freecad_deviation.png")
+    legend.save_csv(os.path.join(OUT, "deviation.csv"))
+    legend.save_picture(os.path.join(OUT, "deviation.png"))
+    check("deviation: CSV and picture are written", os.path.getsize(os.path.join(OUT, "deviation.csv")) > COUNT * 40 and os.path.getsize(os.path.join(OUT, "deviation.png")) > 10000)
+    yield
+    def cancel():
+        dialog = QtGui.QApplication.activeModalWidget()
+        if isinstance(dialog, QtGui.QProgressDialog):
+            dialog.findChild(QtGui.QPushButton).click()
+        else:
+            QtCore.QTimer.singleShot(20, cancel)
+
+    QtCore.QTimer.singleShot(20, cancel)
+    many = np.tile(at, (max(1, 1_500_000 // COUNT), 1)) + 5.0
+    check("deviation: cancelled by its dialog", commands.with_dialog(source.Shape, many) is None)
+    document.saveAs(os.path.join(OUT, "demo.FCStd"))
+    check("the document is saved", os.path.getsize(os.path.join(OUT, "demo.FCStd")) > 1000)
+
+
+running = steps()
+
+
+def go():
+    try:
+        next(running)
+        QtCore.QTimer.singleShot(400, go)
+        return
+    except StopIteration:
+        log.write("done\n")
+    except BaseException:
+        log.write("WRONG " + traceback.format_exc())
+    log.close()
+    os._exit(0)
+
+
+QtCore.QTimer.singleShot(2500, go)

@@ -1,0 +1,215 @@
+"""Run by freecadcmd: the computations against FreeCAD's own, results as document objects, the macro module.
+
+Prints a table of Surface.parameter beside ours, then "N passed, M failed"; the exit code says whether all passed.
+"""
+
+import os
+import sys
+import tempfile
+import time
+import traceback
+
+import FreeCAD
+import numpy as np
+import Part
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+from footpoint_freecad import measure, objects, parameters  # noqa: E402
+
+V = FreeCAD.Vector
+HERE = os.path.dirname(os.path.abspath(__file__))
+PLACE = FreeCAD.Placement(V(3, -4, 5), FreeCAD.Rotation(V(1, 2, 3), 40))
+
+
+def profile(closed=False):
+    curve = Part.BSplineCurve()
+    curve.interpolate([V(10, 0, 0), V(14, 0, 6), V(8, 0, 12), V(12, 0, 20)] if not closed else [V(0, 0, 0), V(10, 5, 0), V(20, -2, 0), V(8, -9, 0)], PeriodicFlag=closed)
+    return curve
+
+
+def bumpy():
+    rng = np.random.default_rng(4)
+    surface = Part.BSplineSurface()
+    surface.interpolate([[V(8 * i, 8 * j, float(rng.normal(0, 5))) for j in range(7)] for i in range(8)])
+    return surface
+
+
+def loft():
+    return Part.makeLoft([Part.Wire([Part.makeCircle(r, V(0, 0, z))]) for r, z in ((10, 0), (6, 8), (9, 20))], True)
+
+
+def ten_faces():
+    weights = Part.BSplineSurface()
+    weights.buildFromPolesMultsKnots([[V(x, y, x * y / 9 + (x - 5) ** 2 / 6) for y in (0, 4, 9, 12)] for x in (0, 3, 8, 11)], [4, 4], [4, 4], [0, 1], [0, 2],
+                                     False, False, 3, 3, [[1, 2, 1, 0.5], [1, 1, 3, 1], [0.4, 1, 1, 2], [1, 1, 1, 1]])
+    faces = {"plane": Part.makeBox(20, 30, 5).Faces[0], "cylinder": Part.makeCylinder(5, 20).Faces[0], "cone": Part.makeCone(2, 8, 12).Faces[0],
+             "sphere": Part.makeSphere(7).Faces[0], "torus": Part.makeTorus(12, 4).Faces[0],
+             "revolution": Part.SurfaceOfRevolution(profile(), V(0, 0, 0), V(0, 0, 1)).toShape(),
+             "extrusion": Part.Wire([Part.Edge(profile(True))]).extrude(V(2, 4, 18)).Faces[0],
+             "loft": loft().Faces[0], "bumpy": bumpy().toShape(), "rational": weights.toShape()}
+    return {name: face.transformed(PLACE.toMatrix()) for name, face in faces.items()}
+
+
+def around(shape, count, seed=3):
+    box = shape.BoundBox
+    rng = np.random.default_rng(seed)
+    low, high = np.array([box.XMin, box.YMin, box.ZMin]), np.array([box.XMax, box.YMax, box.ZMax])
+    edge = 0.2 * np.linalg.norm(high - low)
+    return rng.uniform(low - edge, high + edge, (count, 3))
+
+
+def test_parameters_beside_freecad():
+    """Ours is never farther than FreeCAD's; where FreeCAD's is farther or fails, the table counts it."""
+    print(f"{'face':12} {'farther':>8} {'failed':>7} {'outside':>8} {'by a hair':>10} {'ours farther':>13} {'not proven':>11} {'FreeCAD us':>11} {'ours, one by one':>17} {'ours, batch':>12}")
+    for name, face in ten_faces().items():
+        surface, points = face.Surface, around(face, 1000)
+        size = face.BoundBox.DiagonalLength
+        ours = parameters.Surface(face)
+        start = time.perf_counter()
+        uv = ours.parameters(points)
+        batch = time.perf_counter() - start
+        feet = ours.feet(points)
+        start = time.perf_counter()
+        [ours.parameter(point) for point in points]
+        single = time.perf_counter() - start
+        vectors = [V(*point) for point in points.tolist()]
+        theirs, failed = [], 0
+        start = time.perf_counter()
+        for point in vectors:
+            try:
+                theirs.append(surface.parameter(point))
+            except Exception:
+                theirs.append(None)
+                failed += 1
+        freecad = time.perf_counter() - start
+        bounds = face.ParameterRange
+        distance = np.array([(surface.value(*map(float, pair)) - point).Length for pair, point in zip(uv, vectors)])
+        low, high = np.array(bounds[0::2]), np.array(bounds[1::2])
+        given = np.array([pair if pair else (np.nan, np.nan) for pair in theirs])
+        beyond = (np.maximum(low - given, given - high) / (high - low)).max(1)
+        within, hair = beyond <= 1e-7, (beyond > 0) & (beyond <= 1e-7)
+        moved = np.where(within[:, None], np.clip(given, low, high), given)  # a hair outside the face is no point of it
+        other = np.array([(surface.value(*map(float, pair)) - point).Length if pair[0] == pair[0] else np.inf for pair, point in zip(moved, vectors)])
+        farther = np.isfinite(other) & (other > distance + 1e-6 * size)
+        worse = within & (distance > other + 1e-9 * size)
+        print(f"{name:12} {farther.sum():8} {failed:7} {(~within).sum() - failed:8} {hair.sum():10} {worse.sum():13} {(~feet.proven).sum():11} {freecad * 1e3:11.1f} {single * 1e3:17.1f} {batch * 1e3:12.2f}")
+        assert not worse.any() and feet.proven.all()
+        assert np.abs(distance - feet.distance).max() < 1e-9 * size
+        mine = parameters.parameter(face, vectors[0])
+        assert np.allclose(mine, uv[0]) and isinstance(mine, tuple)
+
+
+def test_curves():
+    for edge in [*Part.makeCone(2, 8, 12).Edges, Part.Edge(profile(True)), Part.Ellipse(V(0, 0, 0), 5, 2).toShape()]:
+        curve = parameters.Curve(edge)
+        for t in np.linspace(*edge.ParameterRange, 7)[1:-1]:
+            at = edge.Curve.value(float(t))
+            assert abs(curve.parameter(at) - edge.Curve.parameter(at)) < 1e-7 * max(1, abs(t))
+    assert np.allclose(parameters.parameter(Part.Plane(), V(3, 4, 5)), (3, 4))
+    u, v = parameters.parameter(Part.Cylinder(), V(3, 4, 5))
+    assert abs(u - Part.Cylinder().parameter(V(3, 4, 5))[0]) < 1e-12 and abs(v - 5) < 1e-9
+
+
+def parts():
+    plate = Part.makeBox(30, 20, 10).cut(Part.makeCylinder(5, 20, V(15, 10, -5)))
+    bent = Part.makeBox(30, 30, 10).cut(Part.makeBox(20, 20, 20, V(10, 10, -5)))
+    outline = Part.Wire([profile().toShape(), Part.makeLine(V(12, 0, 20), V(0, 0, 20)), Part.makeLine(V(0, 0, 20), V(0, 0, 0)), Part.makeLine(V(0, 0, 0), V(10, 0, 0))])
+    vase = Part.Face(outline).revolve(V(0, 0, 0), V(0, 0, 1), 360).cut(Part.makeCylinder(4, 60, V(-30, 0, 10), V(1, 0, 0)))
+    return {"plate": plate.makeFillet(2, [plate.Edges[0]]), "bent": bent.makeFillet(3, [edge for edge in bent.Edges if edge.Length == 10][:3]),
+            "vase": vase, "loft": loft().cut(Part.makeBox(9, 9, 30, V(3, 3, -2))), "torus": Part.makeTorus(12, 4), "cone": Part.makeCone(0, 8, 12)}
+
+
+def test_parts_against_distToShape():
+    """Nearest points of trimmed parts beside FreeCAD's distance to the shell, signs beside its classification of the solid."""
+    for name, solid in parts().items():
+        solid = solid.transformed(PLACE.toMatrix())
+        points = around(solid, 400, 8)
+        found = measure.deviation(solid, points).nearest
+        shell = Part.Shell(solid.Faces)
+        truth = np.array([shell.distToShape(Part.Vertex(V(*point)))[0] for point in points])
+        inside = np.array([solid.isInside(V(*point), 1e-9, True) for point in points])
+        size = solid.BoundBox.DiagonalLength
+        on = max(shell.distToShape(Part.Vertex(V(*point)))[0] for point in found.point[:50])
+        print(f"{name:8} ours - FreeCAD's: {(found.distance - truth).min():.1e} to {(found.distance - truth).max():.1e}; {(~found.proven).sum()} not proven")
+        assert (found.distance <= truth + 1e-7 * size).all() and on < 1e-7 * size, name
+        assert (found.lower_bound <= truth + 1e-9 * size).all(), name
+        clear = found.distance > 1e-6 * size
+        assert ((found.signed < 0) == inside)[clear].all(), name
+
+
+def test_objects():
+    document = FreeCAD.newDocument("Test")
+    ball = document.addObject("Part::Feature", "Ball")
+    ball.Shape = Part.makeSphere(4)
+    made = objects.make(objects.InvertResult, "Invert", ball, "Face1", (4, 0, 0))
+    assert made.Proven and made.OnShape and made.Complete and len(made.Preimages) == 2
+    pole = objects.make(objects.InvertResult, "Invert", ball, "Face1", (0, 0, 4))
+    assert pole.OnShape and len(pole.Preimages) >= 1
+    seams = objects.make(objects.SeamsResult, "Seams", ball, "Face1")
+    assert seams.ClosedU and not seams.ClosedV and len(seams.Collapsed) == 2 and not seams.Shape.isNull()
+    near = objects.make(objects.ClosestResult, "Closest", ball, "", (0, 9, 0))
+    assert near.Proven and abs(near.Distance - 5) < 1e-12 and abs(near.Shape.Length - 5) < 1e-12
+    count = len(document.Objects)
+    try:
+        objects.make(objects.InvertResult, "Invert", ball, "Vertex1", (1, 1, 1))
+        raise AssertionError("no error")
+    except TypeError as error:
+        assert "face" in str(error) and len(document.Objects) == count
+    edge = objects.make(objects.InvertResult, "Invert", ball, "Edge2", (1, 1, 1))
+    assert not edge.OnShape and len(edge.Parameters) == 1
+    ball.Placement.Base = V(0, 2, 0)
+    document.recompute()
+    assert abs(near.Distance - 3) < 1e-12
+    found = measure.deviation(ball.Shape, around(ball.Shape, 500))
+    drawn = objects.make_deviation(ball, "", found)
+    assert drawn.Count == 500 and drawn.Proven == 500 and len(drawn.Color) == 500
+    with tempfile.TemporaryDirectory() as folder:
+        found.save_csv(os.path.join(folder, "d.csv"))
+        back = measure.points_of(os.path.join(folder, "d.csv"))
+        assert np.allclose(back, found.points, rtol=1e-8)
+        file = os.path.join(folder, "t.FCStd")
+        document.saveAs(file)
+        FreeCAD.closeDocument(document.Name)
+        again = FreeCAD.openDocument(file)
+        assert abs(again.getObject("Closest").Distance - 3) < 1e-12 and type(again.getObject("Closest").Proxy).__name__ == "ClosestResult"
+        again.getObject("Closest").Query = V(0, 11, 0)
+        again.recompute()
+        assert abs(again.getObject("Closest").Distance - 5) < 1e-12
+        FreeCAD.closeDocument(again.Name)
+
+
+def test_refusals():
+    for call, text in ((lambda: measure.PartTarget(Part.Vertex(1, 2, 3)), "no faces"), (lambda: measure.invert(Part.Vertex(1, 2, 3), (0, 0, 0)), "curve"),
+                       (lambda: parameters.parameter(3, (0, 0, 0)), ""), (lambda: measure.points_of(3), "point cloud")):
+        try:
+            call()
+        except (ValueError, TypeError, AttributeError) as error:
+            assert text in str(error)
+        else:
+            raise AssertionError("no error")
+
+
+def test_guide():
+    """The program of the guide for FreeCAD users, as it stands there."""
+    with open(os.path.join(HERE, "..", "..", "..", "docs", "guide.md"), encoding="utf-8") as stream:
+        section = stream.read().split("## FreeCAD users")[1].split("\n## ")[0]
+    programs = [part.split("```")[0] for part in section.split("```python\n")[1:]]
+    assert len(programs) == 1
+    for program in programs:
+        exec(compile(program, "guide", "exec"), {})
+
+
+failed = passed = 0
+only = os.environ.get("FOOTPOINT_ONLY", "")
+for name, test in [(name, test) for name, test in list(globals().items()) if name.startswith("test_") and only in name]:
+    try:
+        test()
+        passed += 1
+        print("ok", name)
+    except BaseException:
+        failed += 1
+        print("FAILED", name)
+        traceback.print_exc(file=sys.stdout)
+print(f"{passed} passed, {failed} failed")
+sys.stdout.flush()
+os._exit(1 if failed or not passed else 0)

@@ -1,0 +1,393 @@
+//! Building the patches of a surface: extraction, balance of weights, collapsed edges; by all cores when there are many.
+
+use super::{MOST_SPREAD, Patch};
+use crate::bezier::{Bidegree, extraction};
+use crate::bounds::{Aabb, HALF_ULP, Vector, add, extent, norm, sub};
+use crate::error::Error;
+use crate::index::piece::{
+    Frame, LocalNet, MAX_TENSOR_BYTES, Span, balance_for, parts_for, position_steps,
+    power_of_two_over, push_tensors, reserved, tensor_len,
+};
+use crate::index::segments::pieces;
+use crate::jet::{Lane, lanes};
+use crate::knots::Knots;
+use crate::surface::Surface;
+use std::ops::Range;
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Patches from which on all cores build.
+const MANY: usize = 4096;
+
+/// Patches between two looks at `poll`.
+const GROUP: usize = 256;
+
+/// One direction's spans with their extraction matrices.
+struct Direction {
+    spans: Vec<(usize, [f64; 2])>,
+    matrices: Vec<f64>,
+    size: usize,
+}
+
+impl Direction {
+    fn new(knots: &Knots, parts: usize) -> Self {
+        let spans = pieces(knots, parts);
+        let size = knots.degree() + 1;
+        let mut matrices = vec![0.0; spans.len() * size * size];
+        for (matrix, &(span, ends)) in matrices.chunks_exact_mut(size * size).zip(&spans) {
+            extraction(knots, span, ends, matrix);
+        }
+        Self { spans, matrices, size }
+    }
+
+    fn matrix(&self, k: usize) -> &[f64] {
+        let n = self.size * self.size;
+        &self.matrices[k * n..(k + 1) * n]
+    }
+}
+
+/// What is known before the first patch is made.
+pub struct Plan<'a> {
+    surface: &'a Surface,
+    u: Direction,
+    v: Direction,
+    /// As of the index.
+    pub frame: Frame,
+    /// As of the index.
+    pub degree: Bidegree,
+    /// As of the index.
+    pub rational: bool,
+    /// As of the index.
+    pub columns: usize,
+    keep_tensors: bool,
+    /// Collapsed edges whose poles are made to coincide, and where.
+    exact: [bool; 4],
+    points: [Vector; 4],
+}
+
+/// Patches with their numbers, in order.
+#[derive(Default)]
+pub struct Made {
+    /// As of the index.
+    pub patches: Vec<Patch>,
+    /// As of the index.
+    pub nets: Vec<f64>,
+    /// As of the index.
+    pub lanes: Vec<Lane>,
+    /// As of the index.
+    pub tensors: Vec<f64>,
+    /// Their boxes.
+    pub boxes: Vec<Aabb>,
+}
+
+struct Builder<'a> {
+    plan: &'a Plan<'a>,
+    made: Made,
+}
+
+impl<'a> Plan<'a> {
+    pub fn new(surface: &'a Surface) -> Self {
+        let rational = surface.is_rational();
+        let [parts_u, parts_v] = if rational { parts(surface) } else { [1, 1] };
+        let u = Direction::new(surface.knots_u(), parts_u);
+        let v = Direction::new(surface.knots_v(), parts_v);
+        let degree = Bidegree { s: u.size - 1, t: v.size - 1 };
+        let (count, columns) = (u.spans.len() * v.spans.len(), v.spans.len());
+        let tensor_width = tensor_len(degree, rational);
+        let keep_tensors = count * tensor_width * 8 <= MAX_TENSOR_BYTES || tensor_width <= 1125;
+        let frame = Frame::new(surface.poles(), surface.bounding_box());
+        let collapsed = surface.collapsed_edges();
+        let is_exact = |k: usize| surface.collapsed_spread(k) <= MOST_SPREAD * frame.diagonal;
+        let exact = [0, 1, 2, 3].map(|k| collapsed[k] && is_exact(k));
+        let points = collapsed_points(surface, exact).map(|point| frame.enter(point));
+        Self { surface, u, v, frame, degree, rational, columns, keep_tensors, exact, points }
+    }
+
+    /// Makes all patches. Errors as of the index.
+    pub fn build(&self, poll: &mut dyn FnMut() -> bool) -> Result<Made, Error> {
+        let count = self.u.spans.len() * self.columns;
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        if count < MANY || cores == 1 {
+            return self.part(0..count, count, poll);
+        }
+        let (size, stop) = (count.div_ceil(cores), AtomicBool::new(false));
+        let range = |k: usize| (k * size).min(count)..((k + 1) * size).min(count);
+        std::thread::scope(|scope| {
+            let others: Vec<_> = (1..cores)
+                .map(|k| {
+                    let mut poll = || stop.load(Ordering::Relaxed);
+                    let (range, task) = (range(k), self);
+                    let work = move || task.part(range.clone(), range.len(), &mut poll);
+                    (k, std::thread::Builder::new().spawn_scoped(scope, work))
+                })
+                .collect();
+            let mut all = self.part(range(0), count, poll);
+            if all.is_err() {
+                stop.store(true, Ordering::Relaxed);
+            }
+            for (k, other) in others {
+                // A thread that could not be started leaves its share to this one.
+                let part = match other {
+                    Ok(thread) => thread.join().unwrap_or_else(|panic| resume_unwind(panic)),
+                    Err(_) => self.part(range(k), range(k).len(), poll),
+                };
+                if let Ok(made) = &mut all {
+                    match part {
+                        Ok(part) => made.append(part),
+                        Err(error) => all = Err(error),
+                    }
+                }
+            }
+            all
+        })
+    }
+
+    /// The patches of `range`, with room for `room`.
+    fn part(
+        &self,
+        range: Range<usize>,
+        room: usize,
+        poll: &mut dyn FnMut() -> bool,
+    ) -> Result<Made, Error> {
+        let count = self.degree.count();
+        let width = count * if self.rational { 4 } else { 3 };
+        let tensors = if self.keep_tensors { tensor_len(self.degree, self.rational) } else { 0 };
+        let made = Made {
+            patches: reserved(room)?,
+            nets: reserved(room * width)?,
+            lanes: reserved(room * count)?,
+            tensors: reserved(room * tensors)?,
+            boxes: reserved(room)?,
+        };
+        let mut builder = Builder { plan: self, made };
+        for (done, k) in range.enumerate() {
+            if done % GROUP == GROUP - 1 && poll() {
+                return Err(Error::Cancelled);
+            }
+            builder.push_patch(k);
+        }
+        Ok(builder.made)
+    }
+
+    fn local_net(&self, span_u: usize, span_v: usize) -> LocalNet {
+        let surface = self.surface;
+        let columns = surface.knots_v().pole_count();
+        let mut local = Vec::with_capacity(self.degree.count());
+        // Equal weights are no weights: the surface says so, and then they must not scale the poles.
+        let weights = surface.weights().filter(|_| self.rational);
+        for i in span_u - self.degree.s..=span_u {
+            for j in span_v - self.degree.t..=span_v {
+                let at = i * columns + j;
+                let weight = weights.map_or(1.0, |w| w[at]);
+                local.push((self.frame.enter(surface.poles()[at]), weight));
+            }
+        }
+        LocalNet::new(&local)
+    }
+}
+
+impl Made {
+    fn append(&mut self, mut other: Self) {
+        self.patches.append(&mut other.patches);
+        self.nets.append(&mut other.nets);
+        self.lanes.append(&mut other.lanes);
+        self.tensors.append(&mut other.tensors);
+        self.boxes.append(&mut other.boxes);
+    }
+}
+
+impl Builder<'_> {
+    fn push_patch(&mut self, k: usize) {
+        let plan = self.plan;
+        let (u, v, surface) = (&plan.u, &plan.v, plan.surface);
+        let (a, b) = (k / plan.columns, k % plan.columns);
+        let at_side = [a == 0, a + 1 == u.spans.len(), b == 0, b + 1 == v.spans.len()];
+        let net = plan.local_net(u.spans[a].0, v.spans[b].0);
+        let start = self.made.nets.len();
+        let components = if plan.rational { 4 } else { 3 };
+        for component in &net.components[..components] {
+            extract(component, u.matrix(a), u.size, v.matrix(b), v.size, &mut self.made.nets);
+        }
+        let balance = self.balance(start);
+        let (border_u, border_v) =
+            (border(surface.knots_u(), u.spans[a].1), border(surface.knots_v(), v.spans[b].1));
+        let mut patch = Patch {
+            u: Span { ends: u.spans[a].1, balance: balance[0] },
+            v: Span { ends: v.spans[b].1, balance: balance[1] },
+            center: net.center,
+            radius: net.radius,
+            border: [border_u[0], border_u[1], border_v[0], border_v[1]],
+            collapsed: [0, 1, 2, 3].map(|k| at_side[k] && plan.exact[k]),
+            spread: 0.0,
+        };
+        self.make_collapsed_exact(&mut patch, start);
+        let mut aabb = Aabb::EMPTY;
+        self.visit_poles(start, |_, _, pole, _| aabb.include(add(net.center, pole)));
+        let margin = position_steps(plan.degree.s + plan.degree.t) * net.radius + 8.0 * HALF_ULP;
+        let margin = margin + patch.spread;
+        self.made.patches.push(patch);
+        self.made.boxes.push(aabb.grown(margin));
+        let net = &self.made.nets[start..];
+        self.made.lanes.extend(lanes(net, plan.rational));
+        if plan.keep_tensors {
+            push_tensors(net, plan.degree, plan.rational, &mut self.made.tensors);
+        }
+    }
+
+    /// Balances the weights of the net that starts at `start`, by the product of the weights on opposite sides.
+    fn balance(&mut self, start: usize) -> [f64; 2] {
+        let (degree, count) = (self.plan.degree, self.plan.degree.count());
+        if !self.plan.rational {
+            return [1.0; 2];
+        }
+        let w = &self.made.nets[start + 3 * count..];
+        let width = degree.t + 1;
+        let ratio = |first: f64, last: f64| last / first;
+        let corner = [w[0], w[degree.t], w[degree.s * width], w[count - 1]];
+        let balance = [
+            balance_for(ratio(corner[0] * corner[1], corner[2] * corner[3]).sqrt(), degree.s),
+            balance_for(ratio(corner[0] * corner[2], corner[1] * corner[3]).sqrt(), degree.t),
+        ];
+        if balance != [1.0; 2] {
+            let grown = |k: usize| {
+                balance[0].powi((k / width) as i32) * balance[1].powi((k % width) as i32)
+            };
+            let largest = (0..count).fold(0.0, |m: f64, k| m.max(w[k] * grown(k)));
+            let factor = power_of_two_over(largest);
+            for component in self.made.nets[start..].chunks_exact_mut(count) {
+                (0..count).for_each(|k| component[k] *= grown(k) * factor);
+            }
+        }
+        balance
+    }
+
+    /// Calls `f(i, j, Euclidean pole, weight)` for the net that starts at `start`.
+    fn visit_poles(&self, start: usize, mut f: impl FnMut(usize, usize, Vector, f64)) {
+        let count = self.plan.degree.count();
+        let net = &self.made.nets[start..];
+        for k in 0..count {
+            let w = if self.plan.rational { net[3 * count + k] } else { 1.0 };
+            let at = |c: usize| net[c * count + k] / w;
+            f(k / (self.plan.degree.t + 1), k % (self.plan.degree.t + 1), [at(0), at(1), at(2)], w);
+        }
+    }
+
+    /// Moves the poles of collapsed sides onto their points, and records how far.
+    fn make_collapsed_exact(&mut self, patch: &mut Patch, start: usize) {
+        for k in (0..4).filter(|&k| patch.collapsed[k]) {
+            let point = sub(self.plan.points[k], patch.center);
+            let (last_i, last_j) = (self.plan.degree.s, self.plan.degree.t);
+            let (mut moves, mut move_) = (Vec::new(), 0.0f64);
+            self.visit_poles(start, |i, j, pole, weight| {
+                if [i == 0, i == last_i, j == 0, j == last_j][k] {
+                    moves.push((i * (last_j + 1) + j, weight));
+                    move_ = move_.max(norm(sub(pole, point)));
+                }
+            });
+            // The poles themselves are rounded, and so is the point.
+            patch.spread += move_ + 2.0 * position_steps(last_i + last_j) * patch.radius;
+            for (at, weight) in moves {
+                for c in 0..3 {
+                    self.made.nets[start + c * self.plan.degree.count() + at] = weight * point[c];
+                }
+            }
+        }
+    }
+}
+
+/// Whether the ends of a piece are borders of the domain or C0 knots.
+fn border(knots: &Knots, ends: [f64; 2]) -> [bool; 2] {
+    let (first, last) = knots.domain();
+    ends.map(|u| u == first || u == last || knots.multiplicity(u) >= knots.degree())
+}
+
+/// The points onto which collapsed edges are moved: a corner of the surface on each. Edges that meet share theirs.
+fn collapsed_points(surface: &Surface, edges: [bool; 4]) -> [Vector; 4] {
+    let [u0, u1, v0, v1] = surface.domain();
+    let corner = [(u0, v0), (u1, v0), (u0, v0), (u0, v1)].map(|(u, v)| surface.evaluate(u, v));
+    let linked = edges[0] && (edges[2] || edges[3]);
+    let first = if edges[0] { Some(0) } else { edges[1].then_some(1) };
+    let of_v = |k: usize| corner[first.unwrap_or(k)];
+    [corner[0], corner[if linked { 0 } else { 1 }], of_v(2), of_v(3)]
+}
+
+/// Into how many parts the spans of u and v are cut: by the weights' growth along each direction.
+fn parts(surface: &Surface) -> [usize; 2] {
+    let weights = surface.weights().unwrap_or(&[]);
+    let columns = surface.knots_v().pole_count();
+    let window = |w: &[f64]| {
+        let (low, high) = extent(w);
+        high / low
+    };
+    let size = [surface.knots_u().degree() + 1, surface.knots_v().degree() + 1];
+    let along_v = weights.chunks_exact(columns).flat_map(|row| row.windows(size[1]).map(window));
+    let column = |j: usize| weights.iter().skip(j).step_by(columns).copied().collect::<Vec<f64>>();
+    let along_u = (0..columns).map(|j| column(j).windows(size[0]).map(window).fold(1.0, f64::max));
+    [along_u.fold(1.0, f64::max), along_v.fold(1.0, f64::max)].map(parts_for)
+}
+
+/// Applies the two extraction matrices to one component of a local net and appends the Bezier poles.
+fn extract(
+    local: &[f64],
+    m_u: &[f64],
+    rows: usize,
+    m_v: &[f64],
+    columns: usize,
+    out: &mut Vec<f64>,
+) {
+    let mut half = vec![0.0; rows * columns];
+    for i in 0..rows {
+        for j in 0..columns {
+            let row = &m_v[j * columns..(j + 1) * columns];
+            half[i * columns + j] = row.iter().zip(&local[i * columns..]).map(|(m, x)| m * x).sum();
+        }
+    }
+    for i in 0..rows {
+        for j in 0..columns {
+            out.push((0..rows).map(|k| m_u[i * rows + k] * half[k * columns + j]).sum());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wavy(spans: usize) -> Surface {
+        let count = spans + 2;
+        let knots: Vec<f64> =
+            (0..count + 3).map(|k| (k.clamp(2, count) - 2) as f64 / spans as f64).collect();
+        let pole = |k: usize| {
+            let (x, y) = ((k / count) as f64, (k % count) as f64);
+            [x, y, (0.7 * x).sin() * (0.3 * y).cos()]
+        };
+        let poles: Vec<[f64; 3]> = (0..count * count).map(pole).collect();
+        Surface::new(&knots, &knots, 2, 2, &poles, count, count, None).unwrap()
+    }
+
+    #[test]
+    fn parts_joined_are_the_whole() {
+        let surface = wavy(66);
+        let (plan, count) = (Plan::new(&surface), 66 * 66);
+        assert!(count >= MANY);
+        let whole = plan.part(0..count, count, &mut || false).unwrap();
+        let built = plan.build(&mut || false).unwrap();
+        let mut joined = plan.part(0..1000, count, &mut || false).unwrap();
+        joined.append(plan.part(1000..count, 0, &mut || false).unwrap());
+        for other in [built, joined] {
+            assert_eq!((&whole.nets, &whole.tensors), (&other.nets, &other.tensors));
+            assert_eq!((&whole.lanes, &whole.boxes), (&other.lanes, &other.boxes));
+            let centers = |made: &Made| -> Vec<_> {
+                made.patches.iter().map(|p| (p.center, p.u, p.v, p.border)).collect()
+            };
+            assert_eq!(centers(&whole), centers(&other));
+        }
+    }
+
+    #[test]
+    fn building_stops_when_asked_to() {
+        let surface = wavy(66);
+        let stopped = Plan::new(&surface).build(&mut || true);
+        assert_eq!(stopped.err(), Some(Error::Cancelled));
+    }
+}
