@@ -8,8 +8,9 @@ QUERIES ?= 10000000
 WEIGHTS ?= 10000
 THREADS ?= $(JOBS)
 CASES   ?= ../shared/cases
+OCCT_PACKAGES = libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev
 
-.PHONY: help build test test-rust test-c test-python test-freecad stress weights-stress demo demo-weights compare-occt bench bench-drivers bench-instructions install clean
+.PHONY: help build test test-rust test-c test-python test-freecad stress weights-stress demo demo-weights compare-occt bench bench-drivers bench-instructions install deb abi-baseline clean
 
 help:
 	@echo "make build             build the library, shared and static, into $(BUILD)/lib"
@@ -22,9 +23,11 @@ help:
 	@echo "make bench             time against OpenCASCADE, SISL and CGAL on the cases in $(CASES) (ten minutes); tables and"
 	@echo "                       pictures go to bench-out/; BENCH_QUICK=1 takes a fifth of the cases (two minutes)"
 	@echo "make bench-instructions  count instructions per query with callgrind, beside docs/instructions.csv; RECORD=1 appends"
-	@echo "make install PREFIX=p  install library, headers and pkg-config file (default $(PREFIX))"
+	@echo "make install PREFIX=p  install library, headers, and what pkg-config and CMake need (default $(PREFIX))"
+	@echo "make deb               build the Debian packages into $(BUILD)/deb; make abi-baseline accepts a changed binary interface"
 	@echo "make clean             remove what was built"
-	@echo "Tools that are missing (cmake; for the tests also g++ and valgrind) are installed with apt by root;"
+	@echo "Tools that are missing (cmake; for the tests also g++, valgrind, and the libraries that they compare with) are"
+	@echo "installed with apt by root;"
 	@echo "everybody else is told the one line to run. Settings: CARGO=$(CARGO) BUILD=$(BUILD) JOBS=$(JOBS)"
 
 # $(call need,<tools>,<packages>): each tool is also the name of its package; packages that hold no tool are asked
@@ -40,6 +43,17 @@ if [ "$$(id -u)" != 0 ] || ! command -v apt-get >/dev/null 2>&1; then \
 fi; \
 echo "installing with apt:$$missing"; \
 apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $$missing >/dev/null
+endef
+
+# $(call want,<packages>): installed with apt by root when they can be had. Without them the tests that use them are left out.
+define want
+@missing=""; \
+for name in $(1); do dpkg -s $$name >/dev/null 2>&1 || missing="$$missing $$name"; done; \
+if [ -z "$$missing" ]; then exit 0; fi; \
+if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null 2>&1 && echo "installing with apt:$$missing" \
+  && { apt-get update -qq; DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $$missing; } >/dev/null 2>&1; \
+then exit 0; fi; \
+echo "left out, what needs:$$missing (sudo apt-get install -y --no-install-recommends$$missing)"
 endef
 
 # $(call configure,<ON or OFF>): with or without the tests.
@@ -66,6 +80,13 @@ test-rust:
 
 test-c:
 	$(call need,cmake g++ valgrind)
+	$(call want,pkg-config)
+	$(call want,abigail-tools)
+	$(call want,$(OCCT_PACKAGES))
+	$(call want,libocct-data-exchange-dev)
+	$(call want,libcgal-dev)
+	$(call want,libopenmesh-dev)
+	$(call want,libsisl-dev)
 	$(call configure,ON)
 	cmake --build $(BUILD) -j $(JOBS)
 	cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
@@ -100,8 +121,6 @@ demo: demo-weights
 	mkdir -p demo-out
 	$(BUILD)/examples/propeller demo-out
 
-OCCT_PACKAGES = libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev
-
 compare-occt: build
 	$(call need,cmake g++,$(OCCT_PACKAGES))
 	cmake -S compare/occt -B $(BUILD)/compare-occt -DFOOTPOINT_LIB="$(abspath $(BUILD))/lib"
@@ -128,6 +147,15 @@ bench-instructions: bench-drivers
 
 install: build
 	cmake --install $(BUILD) --prefix "$(PREFIX)"
+
+# Recipes for Debian, vcpkg and Conan are in packaging/.
+deb:
+	$(call need,cmake pkg-config,dpkg-dev debhelper)
+	sh packaging/deb.sh . $(BUILD)/deb
+
+# After a deliberate change of the binary interface.
+abi-baseline:
+	sh ctests/abi/abi.sh cc include/footpoint.h ctests/abi/baseline.h write
 
 clean:
 	rm -rf $(BUILD) demo-out bench-out

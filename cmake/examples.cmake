@@ -1,5 +1,7 @@
-# Each C file in examples/, and each folder there, is a program in <build>/examples. With the tests on, each runs as a
-# test; what a program in a folder writes goes to <build>/examples-out.
+# Each C or C++ file in examples/, and each folder there, is a program in <build>/examples; files that end in .cxx need
+# OpenCASCADE and are left out without it. With the tests on, each runs as a test; what a program in a folder writes goes to
+# <build>/examples-out.
+include(cmake/opencascade.cmake)
 file(GLOB footpoint_examples CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/examples/*)
 foreach(example ${footpoint_examples})
   get_filename_component(name ${example} NAME_WE)
@@ -8,15 +10,18 @@ foreach(example ${footpoint_examples})
   if(IS_DIRECTORY ${example})
     file(GLOB sources CONFIGURE_DEPENDS ${example}/*.c)
     set(arguments ${PROJECT_BINARY_DIR}/examples-out 100000)
-  elseif(example MATCHES "\\.c$")
+  elseif(example MATCHES "\\.(c|cpp)$" OR (example MATCHES "\\.cxx$" AND FOOTPOINT_OCCT_FOUND))
     set(sources ${example})
   endif()
   if(sources)
     add_executable(${name} ${sources})
-    set_target_properties(${name} PROPERTIES C_STANDARD 99 C_EXTENSIONS OFF
+    set_target_properties(${name} PROPERTIES C_STANDARD 99 C_EXTENSIONS OFF CXX_STANDARD 17 CXX_EXTENSIONS OFF
       RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/examples)
-    target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic)
-    target_link_libraries(${name} PRIVATE footpoint::footpoint m)
+    target_compile_options(${name} PRIVATE $<$<NOT:$<C_COMPILER_ID:MSVC>>:-Wall -Wextra -Wpedantic>)
+    target_link_libraries(${name} PRIVATE footpoint::footpoint $<$<BOOL:${UNIX}>:m>)
+    if(example MATCHES "\\.cxx$")
+      footpoint_link_opencascade(${name} TKShHealing TKGeomAlgo TKBRep TKGeomBase TKG3d TKMath TKernel)
+    endif()
     add_test(NAME example_${name} COMMAND ${name} ${arguments})
   endif()
 endforeach()

@@ -3,6 +3,7 @@
 
 #include "samples.h"
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -312,7 +313,7 @@ void scenes_are_those_of_the_c_api() {
     CHECK(found.members == std::vector<std::uint32_t>({0, 1, 2}));
     CHECK_NEAR(found.feet[0].distance, found.feet[1].distance, 1e-9);
     CHECK(scene.evaluate(1, found.feet[1].u, found.feet[1].v)[0] == found.feet[1].point[0]);
-    const footpoint::scene_feet single = scene.closest_f32({points.begin(), points.end()});
+    const footpoint::scene_feet single = scene.closest_f32(std::vector<float>(points.begin(), points.end()));
     for (std::size_t i = 0; i < 3; i++) CHECK(same(found.feet[i], single.feet[i]));
     const std::vector<float> near{300, 250, 90};
     CHECK(same(scene.shape_of(0).second.closest_f32(near)[0], scene.shape_of(0).second.closest({300, 250, 90})[0]));
@@ -324,6 +325,100 @@ void scenes_are_those_of_the_c_api() {
     CHECK(scene.invert_f32({300, 250, 90}).members[0] == 0);
     check_thrown([&] { scene.closest(points, footpoint::query_options(), {0}); }, FPT_INVALID_ARGUMENT, "hint_members");
     check_thrown([&] { footpoint::scene empty(std::vector<fpt_scene_member>{}); }, FPT_INVALID_ARGUMENT, "members");
+}
+
+void arrays_of_all_kinds_are_spans() {
+    const surface shape = paper();
+    const std::vector<double> vector{300, 250, 100, 0, 0, 0};
+    const std::array<double, 6> array{300, 250, 100, 0, 0, 0};
+    const double plain[6] = {300, 250, 100, 0, 0, 0};
+    const auto feet = shape.closest(vector);
+    for (const auto &other : {shape.closest(array), shape.closest(plain), shape.closest({300, 250, 100, 0, 0, 0}),
+                              shape.closest(footpoint::span<const double>(plain, 6)), shape.closest({plain, 6})}) {
+        CHECK(other.size() == 2 && same(other[0], feet[0]) && same(other[1], feet[1]));
+    }
+    CHECK(shape.closest(footpoint::span<const double>()).empty());
+    check_thrown([&] { shape.closest(footpoint::span<const double>(plain, 5)); }, FPT_INVALID_ARGUMENT, "points");
+    double sum = 0;
+    for (const double x : footpoint::span<const double>(plain)) sum += x;
+    CHECK(sum == 650 && footpoint::span<const double>(vector)[1] == 250);
+}
+
+void normals_without_sides_and_derivatives_in_scenes() {
+    const surface shape = paper();
+    const curve round = circle();
+    const std::vector<double> points{300, 250, 100, 100, 100, -50};
+    const auto feet = shape.closest(points);
+    const footpoint::directions with = shape.normals(points, feet), without = shape.normals(feet);
+    CHECK(with.vectors == without.vectors && without.signed_distances.empty());
+    const footpoint::scene scene({footpoint::scene::member(shape), footpoint::scene::member(round)});
+    const auto found = scene.closest(points);
+    CHECK(scene.normals(points, found).vectors.size() == 6 && scene.normals(found).signed_distances.empty());
+    CHECK(scene.evaluate(0, feet[0].u, feet[0].v, 2) == shape.evaluate(feet[0].u, feet[0].v, 2));
+    CHECK(scene.evaluate(1, 0.25, 0, 3) == round.evaluate(0.25, 3));
+    check_thrown([&] { scene.evaluate(2, 0, 0, 1); }, FPT_INVALID_ARGUMENT, "member");
+    check_thrown([&] { scene.evaluate(0, 0.5, 0.5, 32); }, FPT_INVALID_ARGUMENT, "derivatives");
+    fpt_foot_point records[2];
+    std::uint32_t members[2];
+    scene.closest(points.data(), 2, nullptr, nullptr, records, members);
+    CHECK(same(records[1], found.feet[1]) && members[1] == found.members[1]);
+}
+
+// Ten thousand calls with any numbers at all: footpoint::error or an answer.
+void misuse_throws() {
+    const double odd[] = {0, -0.0, 1, -1, 0.5, 1e-300, 1e300, -1e300, NAN, HUGE_VAL, -HUGE_VAL, 250, 1e100};
+    unsigned state = 1;
+    const auto next = [&](unsigned limit) {
+        state = state * 1664525u + 1013904223u;
+        return (state >> 8) % limit;
+    };
+    const auto some = [&] { return odd[next(13)]; };
+    const auto list = [&](unsigned most) {
+        std::vector<double> out(next(most));
+        for (double &x : out) x = some();
+        return out;
+    };
+    // Three in four are whole points.
+    const auto points = [&] {
+        std::vector<double> out(3 * next(4) + (next(4) == 0 ? 1 : 0));
+        for (double &x : out) x = some();
+        return out;
+    };
+    const surface shape = paper();
+    const curve round = circle();
+    int answers = 0, refusals = 0;
+    for (int i = 0; i < 10000; i++) {
+        try {
+            switch (i % 10) {
+            case 0: curve(next(6), list(12), list(20), list(7)); break;
+            case 1: surface(next(4), next(4), list(9), list(9), list(40), list(12)); break;
+            case 2: (void)shape.evaluate(some(), some(), next(40)); break;
+            case 3: (void)round.evaluate_many(list(6), next(40)); break;
+            case 4: (void)shape.closest(points()); break;
+            case 5: (void)round.preimage({some(), some(), some()}, some()); break;
+            case 6: (void)shape.on_line({some(), some(), some()}, {some(), some(), some()}, {some(), some()}, some()); break;
+            case 7: {
+                footpoint::query_options options;
+                options.accuracy = some(), options.tolerance = some(), options.method = next(6), options.scope = next(4);
+                options.point_stride = next(60), options.reserved = next(20) == 0, options.struct_size = next(9) == 0 ? next(300) : sizeof options;
+                for (double &x : options.domain) x = next(3) == 0 ? some() : 0;
+                (void)shape.invert(points(), options);
+                break;
+            }
+            case 8: (void)round.path(points()); (void)round.unwrap(some(), some()); break;
+            default: {
+                std::vector<fpt_foot_point> feet(next(3));
+                for (fpt_foot_point &foot : feet) foot.u = some(), foot.v = some();
+                (void)shape.normals(points(), feet);
+            }
+            }
+            answers++;
+        } catch (const footpoint::error &failure) {
+            CHECK(failure.status() != FPT_OK && failure.status() != FPT_INTERNAL && failure.what()[0] != 0);
+            refusals++;
+        }
+    }
+    CHECK(answers > 1000 && refusals > 1000);
 }
 
 void weights_are_those_of_the_c_api() {
@@ -373,6 +468,9 @@ int main() {
     RUN(an_incomplete_set_is_a_set_and_other_failures_are_thrown);
     RUN(normals_and_paths_are_those_of_the_c_api);
     RUN(scenes_are_those_of_the_c_api);
+    RUN(arrays_of_all_kinds_are_spans);
+    RUN(normals_without_sides_and_derivatives_in_scenes);
+    RUN(misuse_throws);
     RUN(weights_are_those_of_the_c_api);
     RUN(versions_agree);
     return check_report("wrapper");

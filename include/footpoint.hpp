@@ -5,7 +5,8 @@
  * Every rule of footpoint.h holds here too: units, threads, lengths and order of the numbers. What differs:
  *   - a curve, a surface, a scene and a report are released by their destructor; they move and do not copy;
  *   - a status that is not FPT_OK is thrown as footpoint::error, with the text of fpt_last_error();
- *   - array arguments are vectors of doubles whose lengths are checked before the call;
+ *   - array arguments are spans, which vectors, arrays and lists in braces become by themselves; their lengths are checked
+ *     before the call;
  *   - FPT_BUDGET_EXHAUSTED is not thrown: the set that comes says so with is_complete().
  * Moved-from objects may be assigned to and destroyed; anything else throws FPT_NULL_ARGUMENT.
  * Callbacks in options must not throw; the functions of from_function may, that is a failure there.
@@ -23,15 +24,46 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <iterator>
 #include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace footpoint {
+
+/** Elements that somebody else owns, as std::span of C++20: the argument of a call, never kept. */
+template <class T>
+class span {
+    using value = std::remove_const_t<T>;
+
+public:
+    constexpr span() noexcept = default;
+    constexpr span(T *data, std::size_t size) noexcept : data_(data), size_(size) {}
+    span(const std::vector<value> &elements) noexcept : span(elements.data(), elements.size()) {}
+    template <std::size_t N>
+    constexpr span(const std::array<value, N> &elements) noexcept : span(elements.data(), N) {}
+    template <std::size_t N>
+    constexpr span(const value (&elements)[N]) noexcept : span(elements, N) {}
+    /** Lives as long as the call that it is written in. */
+    constexpr span(std::initializer_list<value> elements) noexcept : span(elements.begin(), elements.size()) {}
+
+    constexpr T *data() const noexcept { return data_; }
+    constexpr std::size_t size() const noexcept { return size_; }
+    constexpr bool empty() const noexcept { return size_ == 0; }
+    constexpr T *begin() const noexcept { return data_; }
+    constexpr T *end() const noexcept { return data_ + size_; }
+    constexpr T &operator[](std::size_t index) const noexcept { return data_[index]; }
+
+private:
+    static_assert(std::is_const_v<T>, "only of elements that are read");
+    T *data_ = nullptr;
+    std::size_t size_ = 0;
+};
 
 /** A call that failed. what() names the parameter and the index. */
 class error : public std::runtime_error {
@@ -207,19 +239,19 @@ inline void require(bool holds, const char *text) {
 }
 
 /** Poles that a knot vector of this length belongs to. */
-inline std::size_t pole_count(const std::vector<double> &knots, std::size_t degree, const char *text) {
+inline std::size_t pole_count(span<const double> knots, std::size_t degree, const char *text) {
     require(knots.size() > degree && knots.size() - degree > 1, text);
     return knots.size() - degree - 1;
 }
 
-inline const double *weights(const std::vector<double> &weights, std::size_t pole_count) {
+inline const double *weights(span<const double> weights, std::size_t pole_count) {
     require(weights.empty() || weights.size() == pole_count, "weights: need one per pole, or none");
     return weights.empty() ? nullptr : weights.data();
 }
 
 /** Query points in a vector that is packed or has the stride of the options. */
 template <class Number>
-std::size_t point_count(const std::vector<Number> &points, const fpt_query_options &options) {
+std::size_t point_count(span<const Number> points, const fpt_query_options &options) {
     const std::size_t stride = options.point_stride == 0 ? 3 * sizeof(Number) : options.point_stride;
     const std::size_t bytes = points.size() * sizeof(Number);
     require(bytes % stride == 0, "points: the length is not a multiple of the stride of one point");
@@ -253,7 +285,7 @@ using query = fpt_status (*)(const Shape *, const Number *, std::size_t, const f
                              fpt_foot_point *);
 
 template <class Shape, class Number>
-std::vector<fpt_foot_point> feet(query<Shape, Number> ask, const Shape *shape, const std::vector<Number> &points,
+std::vector<fpt_foot_point> feet(query<Shape, Number> ask, const Shape *shape, span<const Number> points,
                                  const fpt_query_options &options) {
     std::vector<fpt_foot_point> out(point_count(points, options));
     check(ask(shape, points.data(), out.size(), &options, out.data()));
@@ -274,7 +306,7 @@ using projection = fpt_status (*)(const Shape *, const double *, std::size_t, co
                                   const fpt_query_options *, fpt_foot_point *);
 
 template <class Shape>
-std::vector<fpt_foot_point> projected(projection<Shape> ask, const Shape *shape, const std::vector<double> &points,
+std::vector<fpt_foot_point> projected(projection<Shape> ask, const Shape *shape, span<const double> points,
                                       const point &direction, const fpt_query_options &options) {
     std::vector<fpt_foot_point> out(point_count(points, options));
     check(ask(shape, points.data(), out.size(), direction.data(), &options, out.data()));
@@ -286,7 +318,7 @@ using walk = fpt_status (*)(const Shape *, const double *, std::size_t, const fp
                             fpt_foot_point *, double *, std::uint32_t *);
 
 template <class Shape>
-path joined(walk<Shape> ask, const Shape *shape, const std::vector<double> &points,
+path joined(walk<Shape> ask, const Shape *shape, span<const double> points,
             const fpt_query_options &options, std::size_t parameters) {
     const std::size_t count = point_count(points, options);
     path out{std::vector<fpt_foot_point>(count), std::vector<double>(parameters * count),
@@ -305,8 +337,8 @@ public:
     explicit curve(const fpt_curve_data &data) : handle_(make(data)) {}
 
     /** The pole count follows from the knots; poles hold x,y,z each; no weights: polynomial. */
-    curve(std::size_t degree, const std::vector<double> &knots, const std::vector<double> &poles,
-          const std::vector<double> &weights = {})
+    curve(std::size_t degree, span<const double> knots, span<const double> poles,
+          span<const double> weights = {})
         : handle_(make(degree, knots, poles, weights)) {}
 
     /** Takes a handle over. */
@@ -366,7 +398,7 @@ public:
     }
 
     /** The values of evaluate for each parameter, one after the other. */
-    std::vector<double> evaluate_many(const std::vector<double> &parameters,
+    std::vector<double> evaluate_many(span<const double> parameters,
                                       std::uint32_t derivatives = 0) const {
         std::vector<double> out(parameters.size() * values(derivatives));
         check(fpt_curve_evaluate_many(get(), parameters.data(), parameters.size(), derivatives, out.data()));
@@ -379,12 +411,12 @@ public:
     std::size_t memory() const { return detail::value(fpt_curve_memory, get()); }
 
     /** One record per query point, x,y,z each. */
-    std::vector<fpt_foot_point> closest(const std::vector<double> &points,
+    std::vector<fpt_foot_point> closest(span<const double> points,
                                         const fpt_query_options &options = query_options()) const {
         return detail::feet(fpt_curve_closest, get(), points, options);
     }
     /** The same for points in single precision. */
-    std::vector<fpt_foot_point> closest_f32(const std::vector<float> &points,
+    std::vector<fpt_foot_point> closest_f32(span<const float> points,
                                             const fpt_query_options &options = query_options()) const {
         return detail::feet(fpt_curve_closest_f32, get(), points, options);
     }
@@ -394,12 +426,12 @@ public:
         check(fpt_curve_closest(get(), points, count, options, out));
     }
     /** One record per query point, x,y,z each. */
-    std::vector<fpt_foot_point> invert(const std::vector<double> &points,
+    std::vector<fpt_foot_point> invert(span<const double> points,
                                        const fpt_query_options &options = query_options()) const {
         return detail::feet(fpt_curve_invert, get(), points, options);
     }
     /** The same for points in single precision. */
-    std::vector<fpt_foot_point> invert_f32(const std::vector<float> &points,
+    std::vector<fpt_foot_point> invert_f32(span<const float> points,
                                            const fpt_query_options &options = query_options()) const {
         return detail::feet(fpt_curve_invert_f32, get(), points, options);
     }
@@ -429,13 +461,13 @@ public:
         });
     }
     /** As fpt_curve_project: one record per query point, x,y,z each. */
-    std::vector<fpt_foot_point> project(const std::vector<double> &points, const point &direction,
+    std::vector<fpt_foot_point> project(span<const double> points, const point &direction,
                                         const fpt_query_options &options = query_options()) const {
         return detail::projected<fpt_curve>(fpt_curve_project, get(), points, direction, options);
     }
 
     /** The points in the order of a path, joined, as fpt_curve_path. */
-    footpoint::path path(const std::vector<double> &points,
+    footpoint::path path(span<const double> points,
                          const fpt_query_options &options = query_options()) const {
         return detail::joined<fpt_curve>(fpt_curve_path, get(), points, options, 1);
     }
@@ -447,13 +479,13 @@ public:
     }
 
     /** The unit tangent at each foot. */
-    directions tangents(const std::vector<fpt_foot_point> &feet) const {
+    directions tangents(span<const fpt_foot_point> feet) const {
         directions out{std::vector<double>(3 * feet.size()), {}, std::vector<std::uint32_t>(feet.size())};
         check(fpt_curve_tangents(get(), feet.data(), feet.size(), out.vectors.data(), out.flags.data()));
         return out;
     }
     /** How far u may move while the point moves by the accuracy (0: the default), for each foot. */
-    std::vector<double> uncertainty(const std::vector<fpt_foot_point> &feet, double accuracy = 0) const {
+    std::vector<double> uncertainty(span<const fpt_foot_point> feet, double accuracy = 0) const {
         std::vector<double> out(feet.size());
         check(fpt_curve_uncertainty(get(), feet.data(), feet.size(), accuracy, out.data()));
         return out;
@@ -475,8 +507,8 @@ private:
         return out;
     }
 
-    static fpt_curve *make(std::size_t degree, const std::vector<double> &knots,
-                           const std::vector<double> &poles, const std::vector<double> &weights) {
+    static fpt_curve *make(std::size_t degree, span<const double> knots,
+                           span<const double> poles, span<const double> weights) {
         fpt_curve_data data{};
         data.struct_size = sizeof data;
         data.degree = degree;
@@ -500,9 +532,9 @@ public:
 
     /** The pole counts follow from the knots; pole (i,j) is number i*pole_count_v + j, x,y,z each; no
      *  weights: polynomial. */
-    surface(std::size_t degree_u, std::size_t degree_v, const std::vector<double> &knots_u,
-            const std::vector<double> &knots_v, const std::vector<double> &poles,
-            const std::vector<double> &weights = {})
+    surface(std::size_t degree_u, std::size_t degree_v, span<const double> knots_u,
+            span<const double> knots_v, span<const double> poles,
+            span<const double> weights = {})
         : handle_(make(degree_u, degree_v, knots_u, knots_v, poles, weights)) {}
 
     /** Takes a handle over. */
@@ -579,7 +611,7 @@ public:
     }
 
     /** The values of evaluate for each pair u,v of `parameters`, one after the other. */
-    std::vector<double> evaluate_many(const std::vector<double> &parameters,
+    std::vector<double> evaluate_many(span<const double> parameters,
                                       std::uint32_t derivatives = 0) const {
         detail::require(parameters.size() % 2 == 0, "parameters: need pairs u,v");
         const std::size_t count = parameters.size() / 2;
@@ -594,12 +626,12 @@ public:
     std::size_t memory() const { return detail::value(fpt_surface_memory, get()); }
 
     /** One record per query point, x,y,z each. */
-    std::vector<fpt_foot_point> closest(const std::vector<double> &points,
+    std::vector<fpt_foot_point> closest(span<const double> points,
                                         const fpt_query_options &options = query_options()) const {
         return detail::feet(fpt_surface_closest, get(), points, options);
     }
     /** The same for points in single precision. */
-    std::vector<fpt_foot_point> closest_f32(const std::vector<float> &points,
+    std::vector<fpt_foot_point> closest_f32(span<const float> points,
                                             const fpt_query_options &options = query_options()) const {
         return detail::feet(fpt_surface_closest_f32, get(), points, options);
     }
@@ -609,12 +641,12 @@ public:
         check(fpt_surface_closest(get(), points, count, options, out));
     }
     /** One record per query point, x,y,z each. */
-    std::vector<fpt_foot_point> invert(const std::vector<double> &points,
+    std::vector<fpt_foot_point> invert(span<const double> points,
                                        const fpt_query_options &options = query_options()) const {
         return detail::feet(fpt_surface_invert, get(), points, options);
     }
     /** The same for points in single precision. */
-    std::vector<fpt_foot_point> invert_f32(const std::vector<float> &points,
+    std::vector<fpt_foot_point> invert_f32(span<const float> points,
                                            const fpt_query_options &options = query_options()) const {
         return detail::feet(fpt_surface_invert_f32, get(), points, options);
     }
@@ -644,13 +676,13 @@ public:
         });
     }
     /** As fpt_surface_project: one record per query point, x,y,z each. */
-    std::vector<fpt_foot_point> project(const std::vector<double> &points, const point &direction,
+    std::vector<fpt_foot_point> project(span<const double> points, const point &direction,
                                         const fpt_query_options &options = query_options()) const {
         return detail::projected<fpt_surface>(fpt_surface_project, get(), points, direction, options);
     }
 
     /** The points in the order of a path, joined, as fpt_surface_path. */
-    footpoint::path path(const std::vector<double> &points,
+    footpoint::path path(span<const double> points,
                          const fpt_query_options &options = query_options()) const {
         return detail::joined<fpt_surface>(fpt_surface_path, get(), points, options, 2);
     }
@@ -662,7 +694,7 @@ public:
     }
 
     /** The unit normal at each foot and the signed distance of its query; packed points x,y,z, one per foot. */
-    directions normals(const std::vector<double> &points, const std::vector<fpt_foot_point> &feet) const {
+    directions normals(span<const double> points, span<const fpt_foot_point> feet) const {
         detail::require(points.size() == 3 * feet.size(), "points: need x,y,z for each foot");
         directions out{std::vector<double>(3 * feet.size()), std::vector<double>(feet.size()),
                        std::vector<std::uint32_t>(feet.size())};
@@ -670,8 +702,14 @@ public:
                                   out.signed_distances.data(), out.flags.data()));
         return out;
     }
+    /** The unit normals alone, without sides. */
+    directions normals(span<const fpt_foot_point> feet) const {
+        directions out{std::vector<double>(3 * feet.size()), {}, std::vector<std::uint32_t>(feet.size())};
+        check(fpt_surface_normals(get(), nullptr, feet.data(), feet.size(), out.vectors.data(), nullptr, out.flags.data()));
+        return out;
+    }
     /** How far u and v may move while the point moves by the accuracy (0: the default), for each foot. */
-    std::vector<double> uncertainty(const std::vector<fpt_foot_point> &feet, double accuracy = 0) const {
+    std::vector<double> uncertainty(span<const fpt_foot_point> feet, double accuracy = 0) const {
         std::vector<double> out(2 * feet.size());
         check(fpt_surface_uncertainty(get(), feet.data(), feet.size(), accuracy, out.data()));
         return out;
@@ -694,9 +732,9 @@ private:
         return out;
     }
 
-    static fpt_surface *make(std::size_t degree_u, std::size_t degree_v, const std::vector<double> &knots_u,
-                             const std::vector<double> &knots_v, const std::vector<double> &poles,
-                             const std::vector<double> &weights) {
+    static fpt_surface *make(std::size_t degree_u, std::size_t degree_v, span<const double> knots_u,
+                             span<const double> knots_v, span<const double> poles,
+                             span<const double> weights) {
         fpt_surface_data data{};
         data.struct_size = sizeof data;
         data.degree_u = degree_u;
@@ -731,7 +769,7 @@ struct scene_feet {
 class scene {
 public:
     /** As fpt_scene_new; the shapes may go before the scene does. */
-    explicit scene(const std::vector<fpt_scene_member> &members) : handle_(make(members)) {}
+    explicit scene(span<const fpt_scene_member> members) : handle_(make(members)) {}
 
     /** Takes a handle over. */
     explicit scene(fpt_scene *handle) noexcept : handle_(handle) {}
@@ -781,32 +819,56 @@ public:
         return out;
     }
 
+    /** The point and its derivatives, as curve::evaluate and surface::evaluate. */
+    std::vector<double> evaluate(std::uint32_t member, double u, double v, std::uint32_t derivatives) const {
+        const std::size_t order = derivatives > 31 ? 0 : derivatives;
+        const bool is_curve = shape_of(member).first.get() != nullptr;
+        std::vector<double> out(3 * (order + 1) * (is_curve ? 2 : order + 2) / 2);
+        check(fpt_scene_evaluate(get(), member, u, v, derivatives, out.data()));
+        return out;
+    }
+
     /** Builds the search indexes now, on all cores. */
     void prepare() const { check(fpt_scene_prepare(get())); }
 
     /** One record per query point, x,y,z each, and its member. Hints: members per query, and options.hints. */
-    scene_feet closest(const std::vector<double> &points, const fpt_query_options &options = query_options(),
-                       const std::vector<std::uint32_t> &hint_members = {}) const {
+    scene_feet closest(span<const double> points, const fpt_query_options &options = query_options(),
+                       span<const std::uint32_t> hint_members = {}) const {
         return ask<double>(fpt_scene_closest, points, options, hint_members);
     }
+    /** As fpt_scene_closest: the records stay with the caller, also when FPT_CANCELLED is thrown; hint_members and out_members may
+     *  be null. */
+    void closest(const double *points, std::size_t count, const fpt_query_options *options,
+                 const std::uint32_t *hint_members, fpt_foot_point *out, std::uint32_t *out_members) const {
+        check(fpt_scene_closest(get(), points, count, options, hint_members, out, out_members));
+    }
     /** The same for points in single precision. */
-    scene_feet closest_f32(const std::vector<float> &points, const fpt_query_options &options = query_options(),
-                           const std::vector<std::uint32_t> &hint_members = {}) const {
+    scene_feet closest_f32(span<const float> points, const fpt_query_options &options = query_options(),
+                           span<const std::uint32_t> hint_members = {}) const {
         return ask<float>(fpt_scene_closest_f32, points, options, hint_members);
     }
     /** As closest, and points proven to be off every member are marked. */
-    scene_feet invert(const std::vector<double> &points, const fpt_query_options &options = query_options(),
-                      const std::vector<std::uint32_t> &hint_members = {}) const {
+    scene_feet invert(span<const double> points, const fpt_query_options &options = query_options(),
+                      span<const std::uint32_t> hint_members = {}) const {
         return ask<double>(fpt_scene_invert, points, options, hint_members);
     }
     /** The same for points in single precision. */
-    scene_feet invert_f32(const std::vector<float> &points, const fpt_query_options &options = query_options(),
-                          const std::vector<std::uint32_t> &hint_members = {}) const {
+    scene_feet invert_f32(span<const float> points, const fpt_query_options &options = query_options(),
+                          span<const std::uint32_t> hint_members = {}) const {
         return ask<float>(fpt_scene_invert_f32, points, options, hint_members);
     }
 
+    /** The unit normals alone, without sides. */
+    directions normals(const scene_feet &found) const {
+        const std::size_t count = found.feet.size();
+        detail::require(found.members.size() == count, "members: need one for each foot");
+        directions out{std::vector<double>(3 * count), {}, std::vector<std::uint32_t>(count)};
+        check(fpt_scene_normals(get(), nullptr, found.feet.data(), found.members.data(), count, out.vectors.data(),
+                                nullptr, out.flags.data()));
+        return out;
+    }
     /** The unit normal at each foot and the signed distance of its query; packed points x,y,z, one per foot. */
-    directions normals(const std::vector<double> &points, const scene_feet &found) const {
+    directions normals(span<const double> points, const scene_feet &found) const {
         const std::size_t count = found.feet.size();
         detail::require(points.size() == 3 * count, "points: need x,y,z for each foot");
         detail::require(found.members.size() == count, "members: need one for each foot");
@@ -827,8 +889,8 @@ private:
                                  const std::uint32_t *, fpt_foot_point *, std::uint32_t *);
 
     template <class Number>
-    scene_feet ask(query<Number> call, const std::vector<Number> &points, const fpt_query_options &options,
-                   const std::vector<std::uint32_t> &hint_members) const {
+    scene_feet ask(query<Number> call, span<const Number> points, const fpt_query_options &options,
+                   span<const std::uint32_t> hint_members) const {
         const std::size_t count = detail::point_count(points, options);
         detail::require(hint_members.empty() || hint_members.size() == count,
                         "hint_members: need one per query point, or none");
@@ -848,7 +910,7 @@ private:
         return out;
     }
 
-    static fpt_scene *make(const std::vector<fpt_scene_member> &members) {
+    static fpt_scene *make(span<const fpt_scene_member> members) {
         fpt_scene_data data{};
         data.struct_size = sizeof data;
         data.member_count = members.size();
@@ -881,7 +943,7 @@ public:
     explicit weights_report(fpt_weights_report *handle) noexcept : handle_(handle) {}
 
     /** As fpt_weights_general. */
-    static weights_report general(const curve &shape, const std::vector<double> &lambdas,
+    static weights_report general(const curve &shape, span<const double> lambdas,
                                   const fpt_weights_options &options = weights_options()) {
         fpt_weights_report *out = nullptr;
         check(fpt_weights_general(shape.get(), lambdas.data(), lambdas.size(), &options, &out));
@@ -895,7 +957,7 @@ public:
         return weights_report(out);
     }
     /** As fpt_weights_network. */
-    static weights_report network(const curve &shape, const std::vector<weights_wish> &wishes, double min_distance,
+    static weights_report network(const curve &shape, span<const weights_wish> wishes, double min_distance,
                                   double max_distance, const fpt_weights_options &options = weights_options()) {
         const split list(wishes);
         fpt_weights_report *out = nullptr;
@@ -904,14 +966,14 @@ public:
         return weights_report(out);
     }
     /** As fpt_weights_refine_curve. */
-    static weights_report refine(const curve &shape, const std::vector<weights_wish> &wishes,
-                                 const std::vector<fpt_weights_constraint> &constraints = {},
+    static weights_report refine(const curve &shape, span<const weights_wish> wishes,
+                                 span<const fpt_weights_constraint> constraints = {},
                                  const fpt_weights_options &options = weights_options()) {
         return refined(fpt_weights_refine_curve, shape.get(), wishes, constraints, options);
     }
     /** As fpt_weights_refine_surface. */
-    static weights_report refine(const surface &shape, const std::vector<weights_wish> &wishes,
-                                 const std::vector<fpt_weights_constraint> &constraints = {},
+    static weights_report refine(const surface &shape, span<const weights_wish> wishes,
+                                 span<const fpt_weights_constraint> constraints = {},
                                  const fpt_weights_options &options = weights_options()) {
         return refined(fpt_weights_refine_surface, shape.get(), wishes, constraints, options);
     }
@@ -950,7 +1012,7 @@ private:
 
     /** Wishes as the two arrays of C. */
     struct split {
-        explicit split(const std::vector<weights_wish> &wishes) {
+        explicit split(span<const weights_wish> wishes) {
             for (const weights_wish &wish : wishes) {
                 poles.push_back(wish.pole);
                 distances.push_back(wish.distance);
@@ -961,8 +1023,8 @@ private:
     };
 
     template <class Call, class Shape>
-    static weights_report refined(Call call, const Shape *shape, const std::vector<weights_wish> &wishes,
-                                  const std::vector<fpt_weights_constraint> &constraints,
+    static weights_report refined(Call call, const Shape *shape, span<const weights_wish> wishes,
+                                  span<const fpt_weights_constraint> constraints,
                                   const fpt_weights_options &options) {
         const split list(wishes);
         fpt_weights_report *out = nullptr;
@@ -1013,13 +1075,13 @@ inline std::vector<double> weights_of_eccentricity(const std::array<double, 9> &
     return out;
 }
 /** As fpt_weights_normalise; unit is a value of fpt_weights_unit. */
-inline std::vector<double> normalised_weights(const std::vector<double> &weights, std::uint32_t unit) {
+inline std::vector<double> normalised_weights(span<const double> weights, std::uint32_t unit) {
     std::vector<double> out(weights.size());
     check(fpt_weights_normalise(weights.data(), weights.size(), unit, out.data()));
     return out;
 }
 /** As fpt_weights_bound. */
-inline std::vector<double> bounded_weights(const std::vector<double> &weights, double ratio) {
+inline std::vector<double> bounded_weights(span<const double> weights, double ratio) {
     std::vector<double> out(weights.size());
     check(fpt_weights_bound(weights.data(), weights.size(), ratio, out.data()));
     return out;
@@ -1027,7 +1089,7 @@ inline std::vector<double> bounded_weights(const std::vector<double> &weights, d
 /** As fpt_weights_standard_form. */
 inline curve standard_form(const curve &shape) { return curve(detail::value(fpt_weights_standard_form, shape.get())); }
 /** As fpt_weights_positive_form: wx,wy,wz,w a pole. */
-inline curve positive_form(std::size_t degree, const std::vector<double> &knots, const std::vector<double> &homogeneous) {
+inline curve positive_form(std::size_t degree, span<const double> knots, span<const double> homogeneous) {
     const std::size_t count = detail::pole_count(knots, degree, "knots: too few for the degree");
     detail::require(homogeneous.size() == 4 * count, "poles: need wx,wy,wz,w for each pole");
     fpt_curve *out = nullptr;

@@ -1,0 +1,2 @@
+// The header says all that it needs.
+#include <footpoint_occt.hxx>

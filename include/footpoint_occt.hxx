@@ -1,0 +1,630 @@
+/*
+ * footpoint for OpenCASCADE 7.6 and newer, C++17, header only. SPDX-License-Identifier: MIT OR Apache-2.0
+ *
+ *   footpoint::occt::curve, surface      a Geom_Curve, Geom_Surface, TopoDS_Edge or TopoDS_Face, asked through footpoint; answers
+ *                                        in OCCT's own parameters and types
+ *   footpoint::occt::GeomAPI_ProjectPointOnCurve, GeomAPI_ProjectPointOnSurf, ShapeAnalysis_Surface
+ *                                        the classes of these names with the same methods; a caller changes its include and
+ *                                        writes `using footpoint::occt::GeomAPI_ProjectPointOnSurf;` in its namespace or function
+ *
+ * What comes how:
+ *   exact   B-splines and Beziers (pole by pole; periodic ones unrolled), lines, conics, planes, cylinders, cones, spheres, tori,
+ *           surfaces of revolution and extrusion of all these, trimmed ones; offsets of elementary surfaces. Angles are rational
+ *           arcs in footpoint and come back as angles. Answers are proven.
+ *   by      offset curves and surfaces, plates and what else derives from Geom_Curve and Geom_Surface: OCCT evaluates. Answers
+ *   call    are found and carry FPT_FOOT_NOT_PROVEN. They must be bounded.
+ * Unbounded directions (planes, cylinders, lines, ...) are converted where a query needs them, and again when one lies farther out.
+ * Revolutions of unbounded lines and conics work too; an extrusion of an unbounded conic must be given a range.
+ *
+ * Failures are OCCT's exceptions with footpoint's text: Standard_NullObject (no shape), Standard_ConstructionError (a bad shape
+ * or range), Standard_OutOfRange (an index), StdFail_NotDone (no answer: a query that is not finite), Standard_OutOfMemory.
+ * An object belongs to one thread at a time; several threads take a copy each, which shares the search index.
+ * Proofs are about the converted shape. Splines are converted bit for bit; arcs and conics lie within rounding (1e-15 of the largest
+ * coordinate) of what OCCT evaluates.
+ *
+ * What the drop-in classes do otherwise than OCCT's own:
+ *   - borders count: the nearest point exists for each query, on an edge or corner too. OCCT lists orthogonal projections only and
+ *     has none where the nearest point is on a border;
+ *   - the lists are complete or IsComplete() is false; nearest first; with borders, saddles, and the apex of a cone. An arc or
+ *     region of equally near points is one entry;
+ *   - tolerances, precisions and Extrema_ExtAlgo change nothing: every answer is refined to the limit of the arithmetic;
+ *   - Extrema() is missing: there is no Extrema_ExtPC or Extrema_ExtPS behind. IsProven(), LowerBound(), IsComplete() are new.
+ */
+#ifndef FOOTPOINT_OCCT_HXX
+#define FOOTPOINT_OCCT_HXX
+
+#include "footpoint_occt_shapes.hxx"
+
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <Extrema_ExtAlgo.hxx>
+#include <Extrema_ExtFlag.hxx>
+#include <ShapeAnalysis_Surface.hxx>
+#include <Standard_NullObject.hxx>
+#include <Standard_OutOfRange.hxx>
+#include <StdFail_NotDone.hxx>
+#include <TopLoc_Location.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <gp_Pnt2d.hxx>
+
+#include <memory>
+
+namespace footpoint::occt {
+
+/** A foot in OCCT's parameters. */
+struct foot {
+    /** On a curve V is 0. */
+    Standard_Real U = 0, V = 0;
+    /** The shape there, as footpoint evaluates it. */
+    gp_Pnt Point;
+    Standard_Real Distance = 0;
+    /** Nothing on the shape is nearer; 0 without proof. */
+    Standard_Real LowerBound = 0;
+    /** Sum of fpt_foot_flag values. EDGE and CORNER are those of the shape and range that were given, as far as it is bounded. */
+    std::uint32_t Flags = 0;
+
+    bool IsProven() const noexcept { return (Flags & (FPT_FOOT_NOT_PROVEN | FPT_FOOT_BAD_QUERY)) == 0; }
+};
+
+/** A member of a set: its foot, and the parameters that belong to it. */
+struct member : foot {
+    std::array<Standard_Real, 2> URange{}, VRange{};
+    /** A value of fpt_member_kind. */
+    std::uint32_t Kind = FPT_MEMBER_POINT;
+    /** A value of fpt_member_nature. */
+    std::uint32_t Nature = FPT_NATURE_MINIMUM;
+};
+
+/** A set: complete, or what was found of it. */
+struct members {
+    std::vector<member> List;
+    bool IsComplete = true;
+};
+
+/** What curve and surface share. */
+template <class Shape, int Directions>
+class asked_shape {
+public:
+    /** The nearest point; proven unless Flags says otherwise. A query that is not finite has FPT_FOOT_BAD_QUERY. */
+    foot closest(const gp_Pnt &query, const fpt_query_options &options = single()) {
+        return closest_many({query}, options)[0];
+    }
+
+    /** The same for many points, on all cores by default; the order is kept. Hints are not passed on. */
+    std::vector<foot> closest_many(const std::vector<gp_Pnt> &queries,
+                                   const fpt_query_options &options = query_options()) {
+        cover(queries);
+        std::vector<double> points;
+        for (const gp_Pnt &q : queries) points.insert(points.end(), {q.X(), q.Y(), q.Z()});
+        fpt_query_options used = restricted(options);
+        used.hints = nullptr;
+        used.point_stride = 0;
+        std::vector<foot> out;
+        for (const fpt_foot_point &found : detail::asked([&] { return shape_->closest(points, used); }))
+            out.push_back(foot_of(found));
+        return out;
+    }
+
+    /** The nearest point, found faster from parameters that are near. */
+    foot closest_from(const gp_Pnt &query, Standard_Real u, Standard_Real v = 0) {
+        cover({query});
+        fpt_query_options used = restricted(single());
+        const double hint[2] = {along_[0].from_occt(u), Directions == 2 ? along_[Directions - 1].from_occt(v) : 0};
+        used.hints = hint;
+        const std::vector<double> point{query.X(), query.Y(), query.Z()};
+        return foot_of(detail::asked([&] { return shape_->closest(point, used); })[0]);
+    }
+
+    /** Every parameter whose point lies within the tolerance (0: 1e-7 x the diagonal of the box). */
+    members preimage(const gp_Pnt &query, Standard_Real tolerance = 0) {
+        cover({query});
+        const point where{query.X(), query.Y(), query.Z()};
+        return members_of(detail::asked([&] { return shape_->preimage(where, tolerance, restricted(single())); }));
+    }
+
+    /** Every point where the distance is stationary, borders included; nearest first. */
+    members extrema(const gp_Pnt &query, const fpt_extrema_options &options = extrema_options()) {
+        cover({query});
+        fpt_extrema_options used = options;
+        restrict(used.domain);
+        const point where{query.X(), query.Y(), query.Z()};
+        return members_of(detail::asked([&] { return shape_->extrema(where, used); }));
+    }
+
+    /** Footpoint's shape as it is now, in its own parameters; a shape with unbounded directions: what the queries needed. */
+    const Shape &shape() {
+        cover({});
+        return *shape_;
+    }
+
+protected:
+    /** Defaults on the calling thread. */
+    static query_options single() {
+        query_options out;
+        out.threads = 1;
+        return out;
+    }
+
+    virtual ~asked_shape() = default;
+    asked_shape() = default;
+    asked_shape(const asked_shape &) = default;
+    asked_shape(asked_shape &&) = default;
+    asked_shape &operator=(const asked_shape &) = default;
+    asked_shape &operator=(asked_shape &&) = default;
+
+    /** The finite part that is to be converted for a query; the ranges come as the bounds and are open where they are open. */
+    virtual void needed(const gp_Pnt &query, detail::range *ranges) const = 0;
+    /** Converts between finite parameters. */
+    virtual void convert(const detail::range *ranges) = 0;
+
+    bool is_open() const {
+        for (int k = 0; k < Directions; k++)
+            if (detail::open(bounds_[k].low) || detail::open(bounds_[k].high)) return true;
+        return false;
+    }
+
+    void cover(const std::vector<gp_Pnt> &queries) {
+        if (!is_open()) {
+            if (!shape_) detail::asked([&] { convert(bounds_); return 0; });
+            return;
+        }
+        for (gp_Pnt query : queries) {
+            query.Transform(place_.Inverted());
+            if (!detail::finite(query)) query = centre_;
+            const double away = query.Distance(centre_);
+            detail::range ranges[Directions], old[Directions];
+            for (int k = 0; k < Directions; k++) ranges[k] = bounds_[k];
+            needed(query, ranges);
+            bool covered = shape_ != nullptr;
+            for (int k = 0; k < Directions; k++) {
+                old[k] = along_[k].used;
+                const bool is_open = detail::open(bounds_[k].low) || detail::open(bounds_[k].high);
+                if (covered && is_open) covered = detail::covers(bounds_[k], old[k], ranges[k]);
+            }
+            if (covered) continue;
+            for (int k = 0; k < Directions; k++) {
+                if (detail::open(bounds_[k].low) || detail::open(bounds_[k].high))
+                    ranges[k] = detail::window(bounds_[k], ranges[k], shape_ ? &old[k] : nullptr,
+                                               curved_ ? 0.25 * (ranges[k].high - ranges[k].low) : away > 0 ? away : 1);
+                else
+                    ranges[k] = bounds_[k];
+            }
+            detail::asked([&] { convert(ranges); return 0; });
+        }
+        if (!shape_) cover({centre_.Transformed(place_)});
+    }
+
+    /** Whether a parameter of footpoint is an end that only the conversion has. */
+    bool is_cut(int k, double t) const {
+        return (detail::open(bounds_[k].low) && t <= along_[k].whole.low)
+            || (detail::open(bounds_[k].high) && t >= along_[k].whole.high);
+    }
+
+    void restrict(double *domain) const {
+        bool whole = true;
+        for (int k = 0; k < Directions; k++) {
+            domain[2 * k] = along_[k].from_occt(along_[k].used.low);
+            domain[2 * k + 1] = along_[k].from_occt(along_[k].used.high);
+            whole = whole && domain[2 * k] <= along_[k].whole.low && domain[2 * k + 1] >= along_[k].whole.high;
+        }
+        if (whole) std::fill(domain, domain + 2 * Directions, 0.0);
+    }
+    fpt_query_options restricted(const fpt_query_options &options) const {
+        fpt_query_options out = options;
+        restrict(out.domain);
+        return out;
+    }
+
+    foot foot_of(const fpt_foot_point &found) const {
+        foot out;
+        const bool good = (found.flags & FPT_FOOT_BAD_QUERY) == 0 && !std::isnan(found.u);
+        out.U = good ? along_[0].to_occt(found.u) : found.u;
+        out.V = Directions == 1 ? 0 : good ? along_[Directions - 1].to_occt(found.v) : found.v;
+        out.Point = gp_Pnt(found.point[0], found.point[1], found.point[2]);
+        out.Distance = found.distance;
+        out.LowerBound = found.lower_bound;
+        out.Flags = found.flags;
+        return out;
+    }
+
+    /** The members but for those that only lie where an unbounded direction was cut. */
+    members members_of(const foot_set &set) const {
+        members out;
+        out.IsComplete = set.is_complete();
+        for (const fpt_foot_member &found : set) {
+            if (is_cut(0, found.foot.u) || (Directions == 2 && is_cut(1, found.foot.v))) continue;
+            member next;
+            static_cast<foot &>(next) = foot_of(found.foot);
+            for (int k = 0; k < 2; k++) {
+                next.URange[std::size_t(k)] = along_[0].to_occt(found.u[k]);
+                next.VRange[std::size_t(k)] = Directions == 1 ? 0 : along_[Directions - 1].to_occt(found.v[k]);
+            }
+            next.Kind = found.kind;
+            next.Nature = found.nature;
+            out.List.push_back(next);
+        }
+        return out;
+    }
+
+    /** OCCT's parameters that were given, perhaps without end. */
+    detail::range bounds_[2] = {{0, 1}, {0, 1}};
+    gp_Trsf place_;
+    /** A point of the shape before it is placed, from which windows are measured. */
+    gp_Pnt centre_;
+    /** The open direction goes along a conic: its parameter is no length. */
+    bool curved_ = false;
+    std::shared_ptr<const Shape> shape_;
+    detail::direction along_[2];
+};
+
+/** A Geom_Curve, or an edge where it lies. */
+class curve : public asked_shape<footpoint::curve, 1> {
+public:
+    explicit curve(const Handle(Geom_Curve) &shape) : curve(shape, detail::everything(), gp_Trsf()) {}
+    /** The part between two parameters; on a periodic curve any two, at most a period apart. */
+    curve(const Handle(Geom_Curve) &shape, Standard_Real Umin, Standard_Real Usup)
+        : curve(shape, detail::range{Umin, Usup}, gp_Trsf()) {}
+    /** The edge's curve between its ends, where its location puts it. An edge without a curve in space is refused. */
+    explicit curve(const TopoDS_Edge &edge) {
+        if (edge.IsNull()) throw Standard_NullObject("edge: null");
+        TopLoc_Location place;
+        detail::range part{};
+        const Handle(Geom_Curve) shape = BRep_Tool::Curve(edge, place, part.low, part.high);
+        if (shape.IsNull()) detail::refuse("edge: it has no curve in space");
+        *this = curve(shape, part, place.Transformation());
+    }
+
+private:
+    curve(const Handle(Geom_Curve) &shape, const detail::range &part, const gp_Trsf &place) {
+        if (shape.IsNull()) throw Standard_NullObject("curve: null");
+        base_ = detail::basis(shape);
+        place_ = place;
+        const bool is_periodic = base_ == shape && shape->IsPeriodic();
+        bounds_[0] = detail::common({shape->FirstParameter(), shape->LastParameter()}, part,
+                                    is_periodic ? shape->Period() : 0, "U");
+        if (is_open()) {
+            curved_ = base_->IsKind(STANDARD_TYPE(Geom_Conic));
+            const detail::range &u = bounds_[0];
+            centre_ = base_->Value(!detail::open(u.low) ? u.low : !detail::open(u.high) ? u.high : 0);
+        }
+        cover({});
+    }
+
+    void needed(const gp_Pnt &query, detail::range *ranges) const override {
+        ranges[0] = detail::feet_on(base_, query, nullptr);
+    }
+    void convert(const detail::range *ranges) override {
+        if (const auto found = detail::profile_of(base_, ranges[0])) {
+            shape_ = std::make_shared<const footpoint::curve>(detail::made(*found, place_));
+            along_[0] = found->along;
+            return;
+        }
+        shape_ = std::make_shared<const footpoint::curve>(detail::called(base_, ranges[0], place_));
+        along_[0].used = along_[0].whole = ranges[0];
+    }
+
+    Handle(Geom_Curve) base_;
+};
+
+/** A Geom_Surface, or a face where it lies. */
+class surface : public asked_shape<footpoint::surface, 2> {
+public:
+    explicit surface(const Handle(Geom_Surface) &shape)
+        : surface(shape, detail::everything(), detail::everything(), gp_Trsf()) {}
+    /** The part between parameters; in a periodic direction any two, at most a period apart. */
+    surface(const Handle(Geom_Surface) &shape, Standard_Real Umin, Standard_Real Usup, Standard_Real Vmin,
+            Standard_Real Vsup)
+        : surface(shape, detail::range{Umin, Usup}, detail::range{Vmin, Vsup}, gp_Trsf()) {}
+    /** The face's surface where its location puts it, in the rectangle of parameters that holds the face; what the wires cut
+     *  off is there. */
+    explicit surface(const TopoDS_Face &face) {
+        if (face.IsNull()) throw Standard_NullObject("face: null");
+        TopLoc_Location place;
+        const Handle(Geom_Surface) shape = BRep_Tool::Surface(face, place);
+        detail::range u{}, v{};
+        BRepTools::UVBounds(face, u.low, u.high, v.low, v.high);
+        *this = surface(shape, u, v, place.Transformation());
+    }
+
+    /** As closest_from, and the parameters go on from the ones before: past the ends of a period, to the nearer side of a seam,
+     *  and on a collapsed edge the parameter along it stays. */
+    foot next(const gp_Pnt2d &before, const gp_Pnt &query) {
+        const double old[2] = {before.X(), before.Y()};
+        double hint[2];
+        for (int k = 0; k < 2; k++)
+            hint[k] = period_[k] > 0 && std::isfinite(old[k])
+                ? old[k] - std::floor((old[k] - bounds_[k].low) / period_[k]) * period_[k] : old[k];
+        foot out = closest_from(query, hint[0], hint[1]);
+        if ((out.Flags & FPT_FOOT_BAD_QUERY) != 0) return out;
+        Standard_Real *found[2] = {&out.U, &out.V};
+        for (int k = 0; k < 2; k++) {
+            const bool is_finite = std::isfinite(old[k]), at_ends = out.Flags & (FPT_FOOT_EDGE | FPT_FOOT_CORNER);
+            const detail::range &ends = bounds_[k];
+            if (is_finite && period_[k] > 0)
+                *found[k] += std::round((old[k] - *found[k]) / period_[k]) * period_[k];
+            else if (is_finite && at_ends && closed_[k] && (*found[k] == ends.low || *found[k] == ends.high))
+                *found[k] = std::abs(old[k] - ends.low) <= std::abs(old[k] - ends.high) ? ends.low : ends.high;
+        }
+        if ((out.Flags & FPT_FOOT_COLLAPSED) != 0) {
+            const auto on = [&](int k, int edge) {
+                return collapsed_[std::size_t(2 * k + edge)] && *found[k] == (edge == 0 ? bounds_[k].low : bounds_[k].high);
+            };
+            for (int k = 0; k < 2; k++) {
+                const int other = 1 - k;
+                if ((on(k, 0) || on(k, 1)) && std::isfinite(old[other]))
+                    *found[other] = period_[other] > 0 ? old[other]
+                                                       : std::clamp(old[other], bounds_[other].low, bounds_[other].high);
+            }
+        }
+        return out;
+    }
+
+private:
+    surface(const Handle(Geom_Surface) &shape, const detail::range &u, const detail::range &v, const gp_Trsf &place) {
+        if (shape.IsNull()) throw Standard_NullObject("surface: null");
+        base_ = detail::plain(detail::basis(shape));
+        place_ = place;
+        const bool is_whole = detail::basis(shape) == shape;
+        detail::range whole[2];
+        shape->Bounds(whole[0].low, whole[0].high, whole[1].low, whole[1].high);
+        const double turn[2] = {is_whole && shape->IsUPeriodic() ? shape->UPeriod() : 0,
+                                is_whole && shape->IsVPeriodic() ? shape->VPeriod() : 0};
+        bounds_[0] = detail::common(whole[0], u, turn[0], "U");
+        bounds_[1] = detail::common(whole[1], v, turn[1], "V");
+        for (int k = 0; k < 2; k++) {
+            const bool all = turn[k] > 0 && bounds_[k].high - bounds_[k].low >= turn[k] * (1 - 1e-15);
+            period_[k] = all ? turn[k] : 0;
+        }
+        if (is_open()) {
+            const auto turned = detail::turned_of(base_);
+            curved_ = turned && detail::basis(turned->meridian)->IsKind(STANDARD_TYPE(Geom_Conic));
+            const auto some = [](const detail::range &r) { return !detail::open(r.low) ? r.low : !detail::open(r.high) ? r.high : 0; };
+            centre_ = base_->Value(some(bounds_[0]), some(bounds_[1]));
+        }
+        cover({});
+    }
+
+    void needed(const gp_Pnt &query, detail::range *ranges) const override {
+        detail::feet_on(base_, query, ranges[0], ranges[1]);
+    }
+    void convert(const detail::range *ranges) override {
+        if (const auto found = detail::net_of(base_, ranges[0], ranges[1])) {
+            shape_ = std::make_shared<const footpoint::surface>(detail::made(*found, place_));
+            along_[0] = found->along[0];
+            along_[1] = found->along[1];
+        } else {
+            shape_ = std::make_shared<const footpoint::surface>(detail::called(base_, ranges[0], ranges[1], place_));
+            for (int k = 0; k < 2; k++) along_[k].used = along_[k].whole = ranges[k];
+        }
+        closed_ = {shape_->is_closed_u(), shape_->is_closed_v()};
+        collapsed_ = shape_->collapsed_edges();
+    }
+
+    Handle(Geom_Surface) base_;
+    double period_[2] = {0, 0};
+    std::array<bool, 2> closed_{};
+    std::array<bool, 4> collapsed_{};
+};
+
+/** What both projecting classes share. */
+template <class Shape>
+class projection {
+public:
+    void Perform(const gp_Pnt &P) {
+        if (!shape_) throw StdFail_NotDone("Perform: Init was not called");
+        query_ = P;
+        nearest_ = shape_->closest(P);
+        listed_.reset();
+    }
+
+    Standard_Integer NbPoints() const { return is_done() ? Standard_Integer(list().size()) : 0; }
+    operator Standard_Integer() const { return NbPoints(); }
+    gp_Pnt Point(const Standard_Integer Index) const { return at(Index).Point; }
+    Standard_Real Distance(const Standard_Integer Index) const { return at(Index).Distance; }
+    gp_Pnt NearestPoint() const { return lowest().Point; }
+    operator gp_Pnt() const { return NearestPoint(); }
+    Standard_Real LowerDistance() const { return lowest().Distance; }
+    operator Standard_Real() const { return LowerDistance(); }
+
+    /** Nothing on the shape is nearer than this. */
+    Standard_Real LowerBound() const { return nearest().LowerBound; }
+    /** Whether the nearest point is proven. */
+    Standard_Boolean IsProven() const { return nearest().IsProven(); }
+    /** Whether NbPoints counts all. */
+    Standard_Boolean IsComplete() const {
+        list();
+        return listed_->IsComplete;
+    }
+
+protected:
+    projection() = default;
+
+    void load(Shape &&shape) {
+        shape_.emplace(std::move(shape));
+        nearest_.reset();
+        listed_.reset();
+    }
+    bool is_done() const { return nearest_ && (nearest_->Flags & FPT_FOOT_BAD_QUERY) == 0; }
+    const foot &nearest() const {
+        if (!is_done()) throw StdFail_NotDone("no answer: nothing was asked, or the point is not finite");
+        return *nearest_;
+    }
+    /** The nearest point; when only maxima are wanted, the nearest of those. */
+    const foot &lowest() const { return wanted_ == Extrema_ExtFlag_MAX ? at(1) : nearest(); }
+
+    /** All extrema, asked for when somebody wants them. */
+    const std::vector<member> &list() const {
+        const foot &first = nearest();
+        if (!listed_) {
+            extrema_options options;
+            options.minima_only = wanted_ == Extrema_ExtFlag_MIN ? 1 : 0;
+            listed_ = shape_->extrema(query_, options);
+            std::vector<member> &all = listed_->List;
+            // A list that is not complete may miss the nearest point.
+            if (!listed_->IsComplete && (all.empty() || all.front().Distance > first.Distance)) {
+                member added;
+                static_cast<foot &>(added) = first;
+                added.URange = {first.U, first.U};
+                added.VRange = {first.V, first.V};
+                all.insert(all.begin(), added);
+            }
+            if (wanted_ == Extrema_ExtFlag_MAX)
+                all.erase(std::remove_if(all.begin(), all.end(), [](const member &m) { return m.Nature != FPT_NATURE_MAXIMUM; }),
+                          all.end());
+        }
+        return listed_->List;
+    }
+    const foot &at(Standard_Integer index) const {
+        const std::vector<member> &all = list();
+        if (index < 1 || index > Standard_Integer(all.size())) throw Standard_OutOfRange("Index: less than 1 or more than NbPoints()");
+        return all[std::size_t(index - 1)];
+    }
+
+    Extrema_ExtFlag wanted_ = Extrema_ExtFlag_MINMAX;
+    mutable std::optional<Shape> shape_;
+    gp_Pnt query_;
+    std::optional<foot> nearest_;
+    mutable std::optional<members> listed_;
+};
+
+/** The class of this name, see the head of this file. */
+class GeomAPI_ProjectPointOnCurve : public projection<curve> {
+public:
+    GeomAPI_ProjectPointOnCurve() = default;
+    GeomAPI_ProjectPointOnCurve(const gp_Pnt &P, const Handle(Geom_Curve) &Curve) { Init(P, Curve); }
+    GeomAPI_ProjectPointOnCurve(const gp_Pnt &P, const Handle(Geom_Curve) &Curve, const Standard_Real Umin,
+                                const Standard_Real Usup) {
+        Init(P, Curve, Umin, Usup);
+    }
+
+    void Init(const gp_Pnt &P, const Handle(Geom_Curve) &Curve) {
+        load(curve(Curve));
+        Perform(P);
+    }
+    void Init(const gp_Pnt &P, const Handle(Geom_Curve) &Curve, const Standard_Real Umin, const Standard_Real Usup) {
+        Init(Curve, Umin, Usup);
+        Perform(P);
+    }
+    void Init(const Handle(Geom_Curve) &Curve, const Standard_Real Umin, const Standard_Real Usup) {
+        load(curve(Curve, Umin, Usup));
+    }
+
+    Standard_Real Parameter(const Standard_Integer Index) const { return at(Index).U; }
+    void Parameter(const Standard_Integer Index, Standard_Real &U) const { U = at(Index).U; }
+    Standard_Real LowerDistanceParameter() const { return lowest().U; }
+};
+
+/** The class of this name, see the head of this file. */
+class GeomAPI_ProjectPointOnSurf : public projection<surface> {
+public:
+    GeomAPI_ProjectPointOnSurf() = default;
+    GeomAPI_ProjectPointOnSurf(const gp_Pnt &P, const Handle(Geom_Surface) &Surface,
+                               const Extrema_ExtAlgo = Extrema_ExtAlgo_Grad) {
+        Init(P, Surface);
+    }
+    GeomAPI_ProjectPointOnSurf(const gp_Pnt &P, const Handle(Geom_Surface) &Surface, const Standard_Real,
+                               const Extrema_ExtAlgo = Extrema_ExtAlgo_Grad) {
+        Init(P, Surface);
+    }
+    GeomAPI_ProjectPointOnSurf(const gp_Pnt &P, const Handle(Geom_Surface) &Surface, const Standard_Real Umin,
+                               const Standard_Real Usup, const Standard_Real Vmin, const Standard_Real Vsup,
+                               const Standard_Real, const Extrema_ExtAlgo = Extrema_ExtAlgo_Grad) {
+        Init(P, Surface, Umin, Usup, Vmin, Vsup);
+    }
+    GeomAPI_ProjectPointOnSurf(const gp_Pnt &P, const Handle(Geom_Surface) &Surface, const Standard_Real Umin,
+                               const Standard_Real Usup, const Standard_Real Vmin, const Standard_Real Vsup,
+                               const Extrema_ExtAlgo = Extrema_ExtAlgo_Grad) {
+        Init(P, Surface, Umin, Usup, Vmin, Vsup);
+    }
+
+    void Init(const gp_Pnt &P, const Handle(Geom_Surface) &Surface, const Standard_Real,
+              const Extrema_ExtAlgo = Extrema_ExtAlgo_Grad) {
+        Init(P, Surface);
+    }
+    void Init(const gp_Pnt &P, const Handle(Geom_Surface) &Surface, const Extrema_ExtAlgo = Extrema_ExtAlgo_Grad) {
+        load(surface(Surface));
+        Perform(P);
+    }
+    void Init(const gp_Pnt &P, const Handle(Geom_Surface) &Surface, const Standard_Real Umin, const Standard_Real Usup,
+              const Standard_Real Vmin, const Standard_Real Vsup, const Standard_Real,
+              const Extrema_ExtAlgo = Extrema_ExtAlgo_Grad) {
+        Init(P, Surface, Umin, Usup, Vmin, Vsup);
+    }
+    void Init(const gp_Pnt &P, const Handle(Geom_Surface) &Surface, const Standard_Real Umin, const Standard_Real Usup,
+              const Standard_Real Vmin, const Standard_Real Vsup, const Extrema_ExtAlgo = Extrema_ExtAlgo_Grad) {
+        Init(Surface, Umin, Usup, Vmin, Vsup);
+        Perform(P);
+    }
+    void Init(const Handle(Geom_Surface) &Surface, const Standard_Real Umin, const Standard_Real Usup,
+              const Standard_Real Vmin, const Standard_Real Vsup, const Standard_Real,
+              const Extrema_ExtAlgo = Extrema_ExtAlgo_Grad) {
+        Init(Surface, Umin, Usup, Vmin, Vsup);
+    }
+    void Init(const Handle(Geom_Surface) &Surface, const Standard_Real Umin, const Standard_Real Usup,
+              const Standard_Real Vmin, const Standard_Real Vsup, const Extrema_ExtAlgo = Extrema_ExtAlgo_Grad) {
+        load(surface(Surface, Umin, Usup, Vmin, Vsup));
+    }
+
+    void SetExtremaAlgo(const Extrema_ExtAlgo) {}
+    void SetExtremaFlag(const Extrema_ExtFlag theExtFlag) {
+        wanted_ = theExtFlag;
+        listed_.reset();
+    }
+    Standard_Boolean IsDone() const { return is_done(); }
+    void Parameters(const Standard_Integer Index, Standard_Real &U, Standard_Real &V) const {
+        const foot &found = at(Index);
+        U = found.U, V = found.V;
+    }
+    void LowerDistanceParameters(Standard_Real &U, Standard_Real &V) const {
+        const foot &found = lowest();
+        U = found.U, V = found.V;
+    }
+};
+
+/** The class of this name: everything of OCCT's, with projections by footpoint. See the head of this file. */
+class ShapeAnalysis_Surface : public ::ShapeAnalysis_Surface {
+public:
+    explicit ShapeAnalysis_Surface(const Handle(Geom_Surface) &S) : ::ShapeAnalysis_Surface(S), shape_(S) {}
+
+    void Init(const Handle(Geom_Surface) &S) {
+        shape_ = surface(S);
+        ::ShapeAnalysis_Surface::Init(S);
+    }
+    void Init(const Handle(::ShapeAnalysis_Surface) &other) {
+        if (other.IsNull()) throw Standard_NullObject("other: null");
+        shape_ = surface(other->Surface());
+        ::ShapeAnalysis_Surface::Init(other);
+    }
+    void SetDomain(const Standard_Real U1, const Standard_Real U2, const Standard_Real V1, const Standard_Real V2) {
+        shape_ = surface(Surface(), U1, U2, V1, V2);
+        ::ShapeAnalysis_Surface::SetDomain(U1, U2, V1, V2);
+    }
+
+    /** The parameters of the nearest point. */
+    gp_Pnt2d ValueOfUV(const gp_Pnt &P3D, const Standard_Real) { return taken(shape_.closest(P3D)); }
+    /** The same, going on from the parameters before, as surface::next. */
+    gp_Pnt2d NextValueOfUV(const gp_Pnt2d &p2dPrev, const gp_Pnt &P3D, const Standard_Real, const Standard_Real = -1.0) {
+        return taken(shape_.next(p2dPrev, P3D));
+    }
+
+    /** Nothing on the surface is nearer to the point asked last than this. */
+    Standard_Real LowerBound() const { return last_.LowerBound; }
+    /** Whether the last answer is proven. */
+    Standard_Boolean IsProven() const { return last_.IsProven(); }
+
+private:
+    gp_Pnt2d taken(const foot &found) {
+        if ((found.Flags & FPT_FOOT_BAD_QUERY) != 0) throw StdFail_NotDone("P3D: not finite");
+        last_ = found;
+        myGap = found.Distance;
+        return gp_Pnt2d(found.U, found.V);
+    }
+
+    surface shape_;
+    foot last_;
+};
+
+} // namespace footpoint::occt
+
+#endif
