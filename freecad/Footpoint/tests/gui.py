@@ -58,10 +58,13 @@ def answer_dialog(values):
 
 
 def answer_distances(values):
-    """Types wishes into the dialog that the next button opens; None: no wish."""
+    """Types wishes into the dialog that the next button opens, None: no wish; without values it is cancelled."""
     def fill():
         dialog = QtGui.QApplication.activeModalWidget()
         check("distances are asked for", dialog is not None and dialog.objectName() == "FootpointDistances")
+        if values is None:
+            dialog.reject()
+            return
         table = dialog.findChild(QtGui.QTableWidget)
         check("the dialog has a row for each pole", table.rowCount() == len(values))
         for row, value in enumerate(values):
@@ -157,7 +160,17 @@ def steps():
     Gui.SendMsgToActiveView("ViewFit")
     yield
     Gui.Selection.clearSelection()
+    told = []
+    plain, commands.say = commands.say, told.append
+    Gui.Selection.addSelection(document.Name, "Bracket")
+    press("Footpoint_Weights")
+    commands.say = plain
+    check(f"weights: a part is refused: {told}", len(told) == 1 and "polygon" in told[0])
+    Gui.Selection.clearSelection()
     Gui.Selection.addSelection(document.Name, "Polygon", "Edge2", 30, 35, 0)
+    answer_distances(None)
+    press("Footpoint_Weights")
+    check("weights: nothing comes of a cancelled dialog", document.getObject("Weights") is None)
     answer_distances((None, 6, None, 9, None))
     press("Footpoint_Weights")
     found = document.getObject("Weights")
