@@ -72,10 +72,41 @@ class SceneData(ctypes.Structure):
     _fields_ = [("struct_size", c_size_t), ("member_count", c_size_t), ("members", c_void_p)]
 
 
+class WeightsOptions(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("weight_min", c_double), ("weight_max", c_double), ("ratio_limit", c_double),
+                ("tolerance", c_double), ("symmetric", c_uint32), ("steps", c_uint32), ("starts", c_uint32), ("reserved", c_uint32),
+                ("seed", c_uint64), ("should_stop", StopFunction), ("user", c_void_p)]
+
+
+class WeightsConstraint(ctypes.Structure):
+    _fields_ = [("kind", c_uint32), ("reserved", c_uint32), ("u", c_double), ("v", c_double), ("vector", c_double * 3)]
+
+
+class WeightsPole(ctypes.Structure):
+    _fields_ = [("wish", c_double), ("chord_distance", c_double), ("first_guess", c_double), ("weight", c_double),
+                ("distance", c_double), ("lower_bound", c_double), ("u", c_double), ("v", c_double), ("state", c_uint32),
+                ("flags", c_uint32)]
+
+
+class WeightsOutcome(ctypes.Structure):
+    _fields_ = [("error", c_double), ("u", c_double), ("v", c_double), ("met", c_uint32), ("reserved", c_uint32)]
+
+
+class WeightsSummary(ctypes.Structure):
+    _fields_ = [("tolerance", c_double), ("iterations", c_uint64), ("starts", c_uint32), ("is_met", c_uint32), ("met", c_uint64),
+                ("not_met", c_uint64), ("impossible", c_uint64)]
+
+
+class WeightsConicShape(ctypes.Structure):
+    _fields_ = [("weight", c_double), ("rho", c_double), ("eccentricity", c_double)]
+
+
 STRUCTS: dict[str, type[ctypes.Structure]] = {
     "fpt_curve_data": CurveData, "fpt_surface_data": SurfaceData, "fpt_curve_callback": CurveCallback,
     "fpt_surface_callback": SurfaceCallback, "fpt_query_options": QueryOptions, "fpt_extrema_options": ExtremaOptions,
     "fpt_foot_point": FootPoint, "fpt_foot_member": FootMember, "fpt_scene_member": SceneMember, "fpt_scene_data": SceneData,
+    "fpt_weights_options": WeightsOptions, "fpt_weights_constraint": WeightsConstraint, "fpt_weights_pole": WeightsPole,
+    "fpt_weights_outcome": WeightsOutcome, "fpt_weights_summary": WeightsSummary, "fpt_weights_conic_shape": WeightsConicShape,
 }
 
 # One letter an argument: p pointer (arrays, handles, structs), z size_t, d double, I uint32_t, i int32_t.
@@ -100,10 +131,17 @@ _STATUS = {
     "scene_new": "pp", "scene_count": "pp", "scene_shape": "pIpp", "scene_placement": "pIp", "scene_box": "pp",
     "scene_memory": "pp", "scene_prepare": "p", "scene_evaluate": "pIddIp", "scene_closest": "ppzpppp",
     "scene_invert": "ppzpppp", "scene_closest_f32": "ppzpppp", "scene_invert_f32": "ppzpppp", "scene_normals": "ppppzppp",
+    "weights_general": "ppzpp", "weights_interpolated": "pddpp", "weights_network": "pppzddpp", "weights_refine_curve": "pppzpzpp",
+    "weights_refine_surface": "pppzpzpp", "weights_report_pole_count": "pp", "weights_report_pole": "pzp",
+    "weights_report_weights": "pzp", "weights_report_constraint": "pzp", "weights_report_summary": "pp", "weights_report_curve": "pp",
+    "weights_report_surface": "pp", "weights_move_point": "pdzdp", "weights_through_point": "pzpdpp", "weights_conic": "ppp",
+    "weights_of_rho": "dp", "weights_of_eccentricity": "pdpp", "weights_normalise": "pzIp", "weights_bound": "pzdp",
+    "weights_standard_form": "pp", "weights_positive_form": "zzppp",
 }
 _OTHER = {
     "last_error": ("", c_char_p), "status_name": ("i", c_char_p), "version": ("", c_uint32), "abi_version": ("", c_uint32),
-    "query_options_init": ("pz", None), "extrema_options_init": ("pz", None), "curve_free": ("p", None),
+    "query_options_init": ("pz", None), "extrema_options_init": ("pz", None),
+    "weights_options_init": ("pz", None), "weights_report_free": ("p", None), "curve_free": ("p", None),
     "surface_free": ("p", None), "foot_set_free": ("p", None), "scene_free": ("p", None),
 }
 PROTOTYPES = {name: (letters, c_int32) for name, letters in _STATUS.items()} | _OTHER

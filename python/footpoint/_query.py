@@ -181,22 +181,23 @@ class Call:
     """The options struct of one call and what must outlive it."""
 
     def __init__(self, options: dict[str, Any], kind: str = "surface", points: Points | None = None, *, struct_type: Any = lib.QueryOptions):
-        known = QueryOptions.__annotations__ if struct_type is lib.QueryOptions else ExtremaOptions.__annotations__
+        init, keywords = _OPTIONS[struct_type]
+        known = keywords.__annotations__
         for name in options:
             if name not in known:
                 raise TypeError(f"'{name}' is not an option; there are {', '.join(known)}")
         self.struct = struct_type()
-        init = "query_options_init" if struct_type is lib.QueryOptions else "extrema_options_init"
         lib.functions[init](ctypes.addressof(self.struct), ctypes.sizeof(self.struct))
         self._hints: np.ndarray | None = None
-        for name in ("tolerance", "accuracy", "radius"):
+        for name in ("tolerance", "accuracy", "radius", "weight_min", "weight_max", "ratio_limit"):
             if name in options:
                 setattr(self.struct, name, real(name, options[name]))
-        for name, most in (("method", 2**32 - 1), ("scope", 2**32 - 1), ("threads", 2**32 - 1), ("budget", 2**64 - 1), ("nearest", 2**63 - 1)):
+        for name, most in _INTEGERS.items():
             if name in options:
                 setattr(self.struct, name, integer(name, options[name], 0, most))
-        if "minima_only" in options:
-            self.struct.minima_only = 1 if options["minima_only"] else 0
+        for name in ("minima_only", "symmetric"):
+            if name in options:
+                setattr(self.struct, name, 1 if options[name] else 0)
         if options.get("domain") is not None:
             ends = array("domain", options["domain"]).reshape(-1)
             if len(ends) != (2 if kind == "curve" else 4):
@@ -282,3 +283,34 @@ class ExtremaOptions(TypedDict, total=False):
     domain: "ArrayLike | None"
     budget: int
     should_stop: "Callable[[], object] | None"
+
+
+class WeightsOptions(TypedDict, total=False):
+    """The keywords of the functions in `weights` that give a report.
+
+    weight_min, weight_max  the range of the weights, 1e-12 to 1e12; 0: 0.01 and 100
+    ratio_limit             greatest weight over least weight, >= 1; 0: no limit but the range
+    tolerance               length: how far a distance may be from its wish; 0: 1e-9 x the diagonal of the poles' box
+    symmetric               True: weights of opposite poles are equal
+    steps                   most training steps of a network; 0: 1,000
+    starts                  most searches of a refinement; 0: 2,000
+    seed                    of the random numbers; the same inputs and seed give the same bits
+    should_stop             called without arguments before each search of a refinement; a true result ends the call with `Cancelled`
+    """
+
+    weight_min: float
+    weight_max: float
+    ratio_limit: float
+    tolerance: float
+    symmetric: bool
+    steps: int
+    starts: int
+    seed: int
+    should_stop: "Callable[[], object] | None"
+
+
+_OPTIONS: dict[Any, tuple[str, Any]] = {
+    lib.QueryOptions: ("query_options_init", QueryOptions), lib.ExtremaOptions: ("extrema_options_init", ExtremaOptions),
+    lib.WeightsOptions: ("weights_options_init", WeightsOptions)}
+_INTEGERS = {"method": 2**32 - 1, "scope": 2**32 - 1, "threads": 2**32 - 1, "budget": 2**64 - 1, "nearest": 2**63 - 1, "steps": 2**32 - 1,
+             "starts": 2**32 - 1, "seed": 2**64 - 1}

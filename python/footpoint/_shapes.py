@@ -199,7 +199,7 @@ def records_of(feet: Any) -> np.ndarray:
     return np.ascontiguousarray(records).reshape(records.shape)
 
 
-def _poles(poles: ArrayLike, dimensions: int) -> np.ndarray:
+def three_coordinates(poles: ArrayLike, dimensions: int) -> np.ndarray:
     """Poles with three coordinates: z = 0 where there are two."""
     given = array("poles", poles)
     if given.ndim != dimensions or given.shape[-1] not in (2, 3):
@@ -236,7 +236,7 @@ class Curve(Shape):
 
     def __init__(self, degree: int, knots: ArrayLike, poles: ArrayLike, weights: ArrayLike | None = None):
         order = integer("degree", degree)
-        self._new(order, array("knots", knots, (None,)), _poles(poles, 2), None if weights is None else array("weights", weights))
+        self._new(order, array("knots", knots, (None,)), three_coordinates(poles, 2), None if weights is None else array("weights", weights))
 
     def _new(self, degree: int, knots: np.ndarray, poles: np.ndarray, weights: np.ndarray | None) -> None:
         if len(knots) != len(poles) + degree + 1:
@@ -251,7 +251,7 @@ class Curve(Shape):
     @classmethod
     def from_poles(cls, degree: int, poles: ArrayLike, weights: ArrayLike | None = None) -> "Curve":
         """A clamped curve on [0, 1] with uniform inner knots; a Bezier curve when there are degree + 1 poles."""
-        points = _poles(poles, 2)
+        points = three_coordinates(poles, 2)
         order = integer("degree", degree, 1, 31)
         if len(points) <= order:
             raise ValueError(f"poles: {len(points)} poles, and degree {order} needs at least {order + 1}")
@@ -394,7 +394,7 @@ class Surface(Shape):
 
     def __init__(self, degree_u: int, degree_v: int, knots_u: ArrayLike, knots_v: ArrayLike, poles: ArrayLike, weights: ArrayLike | None = None):
         self._new(integer("degree_u", degree_u), integer("degree_v", degree_v), array("knots_u", knots_u, (None,)),
-                  array("knots_v", knots_v, (None,)), _poles(poles, 3), None if weights is None else array("weights", weights))
+                  array("knots_v", knots_v, (None,)), three_coordinates(poles, 3), None if weights is None else array("weights", weights))
 
     def _new(self, degree_u: int, degree_v: int, knots_u: np.ndarray, knots_v: np.ndarray, poles: np.ndarray, weights: np.ndarray | None) -> None:
         for name, knots, count, degree in (("knots_u", knots_u, poles.shape[0], degree_u), ("knots_v", knots_v, poles.shape[1], degree_v)):
@@ -411,7 +411,7 @@ class Surface(Shape):
     @classmethod
     def from_poles(cls, degree_u: int, degree_v: int, poles: ArrayLike, weights: ArrayLike | None = None) -> "Surface":
         """A clamped surface on [0, 1] x [0, 1] with uniform inner knots; a Bezier patch when there are degree + 1 poles."""
-        points = _poles(poles, 3)
+        points = three_coordinates(poles, 3)
         orders = integer("degree_u", degree_u, 1, 31), integer("degree_v", degree_v, 1, 31)
         for name, order, count in zip("uv", orders, points.shape):
             if count <= order:

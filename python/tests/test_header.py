@@ -6,10 +6,10 @@ from enum import Enum
 
 import numpy as np
 import pytest
-from shapes import ROOT, circle, cloud, cylinder
+from shapes import ROOT, circle, cloud, cylinder, hill
 
 import footpoint
-from footpoint import _feet, _library
+from footpoint import _feet, _library, weights
 
 HEADER = re.sub(r"/\*.*?\*/", "", (ROOT / "include" / "footpoint.h").read_text(encoding="utf-8"), flags=re.S)
 SCALARS = {"size_t": ctypes.c_size_t, "double": ctypes.c_double, "uint32_t": ctypes.c_uint32, "int32_t": ctypes.c_int32,
@@ -56,14 +56,17 @@ def test_structs():
 @pytest.mark.parametrize("enum, prefix", [(footpoint.Flag, "FPT_FOOT_"), (footpoint.NormalFlag, "FPT_NORMAL_"),
                                           (footpoint.PathChange, "FPT_PATH_"), (footpoint.Method, "FPT_METHOD_"),
                                           (footpoint.Scope, "FPT_SCOPE_"), (footpoint.Kind, "FPT_MEMBER_"),
-                                          (footpoint.Nature, "FPT_NATURE_")])
+                                          (footpoint.Nature, "FPT_NATURE_"), (weights.State, "FPT_WISH_"),
+                                          (weights.WeightFlag, "FPT_WEIGHT_"), (weights.ConstraintKind, "FPT_CONSTRAINT_"),
+                                          (weights.Unit, "FPT_UNIT_")])
 def test_enums(enum: type[Enum], prefix):
     listed = {name: int(value) for name, value in re.findall(rf"^\s*{prefix}(\w+) = (\d+),", HEADER, re.M)}
     assert listed == {name: int(member) for name, member in enum.__members__.items()}
 
 
 def test_records():
-    for struct, dtype in ((_library.FootPoint, _feet.FOOT), (_library.FootMember, _feet.MEMBER)):
+    for struct, dtype in ((_library.FootPoint, _feet.FOOT), (_library.FootMember, _feet.MEMBER), (_library.WeightsPole, weights.POLE),
+                          (_library.WeightsOutcome, weights.OUTCOME)):
         assert dtype.itemsize == ctypes.sizeof(struct)
         assert {name: dtype.fields[name][1] for name in dtype.names} == {name: getattr(struct, name).offset for name, _ in struct._fields_}
     assert _library.ABI_VERSION == int(re.search(r"#define FPT_ABI_VERSION (\d+)", HEADER)[1])
@@ -102,6 +105,12 @@ def test_every_function_is_reached(monkeypatch):
         feet, members = query(points)
         query(points.astype(np.float32))
     scene.normals(feet, members, points)
+    arch = footpoint.Curve.from_poles(2, [[0, 0], [1, 2], [2, 0]])
+    weights.general(arch, [0.5] * 3), weights.interpolated(arch, 1, 1), weights.network(arch, {}, 0.5, 1)
+    weights.refine(arch, {1: 1.0}, [weights.Constraint.through([1, 1, 0])]), weights.refine(hill(), {})
+    weights.move_point(arch, 0.5, 1, 0.1), weights.through_point(arch, 1, [1, 1.5, 0]), weights.conic(arch.poles, [1, 1, 1])
+    weights.of_rho(0.5), weights.of_eccentricity(arch.poles, 1), weights.normalise([1, 2]), weights.bound([1, 2], 1.5)
+    weights.standard_form(arch), weights.positive_form(1, [0, 0, 1, 1], [[0, 0, 0, 1], [1, 0, 0, 1]])
     footpoint.version(), footpoint.abi_version()
     with pytest.raises(RuntimeError, match="FPT_INTERNAL"):
         raise _library.failure(_library.INTERNAL)

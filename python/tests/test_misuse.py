@@ -64,6 +64,16 @@ def odd(rng):
     return rng.choice(choices)
 
 
+def answers(function, arguments, named):
+    """Whether a call answered; else it raised an ordinary exception with a text."""
+    try:
+        function(*arguments, **named)
+        return True
+    except (TypeError, ValueError, NotImplementedError, footpoint.Cancelled, AttributeError, OverflowError, IndexError) as error:
+        assert str(error)
+        return False
+
+
 def test_ten_thousand_random_misuses():
     rng = random.Random(11)
     surface, curve = cylinder(), circle()
@@ -73,17 +83,37 @@ def test_ten_thousand_random_misuses():
     calls += [(footpoint, name) for name in ("Curve", "Surface", "Scene", "from_geomdl", "from_splinepy", "from_freecad", "from_occ")]
     options = ["tolerance", "accuracy", "method", "scope", "hints", "domain", "threads", "budget", "should_stop", "trace", "radius", "nearest",
                "minima_only", "hint_members", "side", "sides", "derivatives", "reach", "nonsense"]
-    raised = answered = 0
+    answered = 0
     for _ in range(10_000):
         owner, name = rng.choice(calls)
         right = [np.ones((5, 3)), [1, 2, 3], 0.5, [0.5, 0.5], 1, surface.closest(np.ones((5, 3)))]
         arguments = [rng.choice(right) if rng.random() < 0.5 else odd(rng) for _ in range(rng.choice([0, 1, 1, 2, 3, 4]))]
         named = {rng.choice(options): odd(rng) for _ in range(rng.choice([0, 0, 0, 1]))}
-        try:
-            getattr(owner, name)(*arguments, **named)
-            answered += 1
-        except (TypeError, ValueError, NotImplementedError, footpoint.Cancelled, AttributeError, OverflowError, IndexError) as error:
-            raised += 1
-            assert str(error)
-    assert raised > 5000 and answered > 300
+        answered += answers(getattr(owner, name), arguments, named)
+    assert 300 < answered < 5000
     assert surface.closest([3, 0, 1]).distance == pytest.approx(1)
+
+
+def test_ten_thousand_random_misuses_of_weights():
+    """Right calls with up to two arguments replaced, and an option."""
+    rng = random.Random(12)
+    weights, arch = footpoint.weights, footpoint.Curve(2, KNOTS, POLES)
+    through = [weights.Constraint.through([1, 1.2, 0])]
+    calls = {"general": (arch, [0.5] * 3), "interpolated": (arch, 1, 1), "network": (arch, {1: 0.7}, 0.5, 1), "refine": (arch, {1: 1.0}, through),
+             "move_point": (arch, 0.5, 1, 0.1), "through_point": (arch, 1, [1, 1.5, 0]), "conic": (POLES, [1, 1, 1]), "of_rho": (0.5,),
+             "of_eccentricity": (POLES, 1), "normalise": ([1, 2],), "bound": ([1, 2], 1.5), "standard_form": (arch,),
+             "positive_form": (1, [0, 0, 1, 1], [[0, 0, 0, 1], [1, 0, 0, 1]])}
+    assert set(calls) == {name for name in weights.__all__ if name[0].islower()}
+    options = ["weight_min", "weight_max", "ratio_limit", "tolerance", "symmetric", "steps", "starts", "seed", "should_stop", "constraints", "nonsense"]
+    answered = 0
+    for _ in range(10_000):
+        name = rng.choice(list(calls))
+        arguments = list(calls[name])
+        for _ in range(rng.choice([0, 1, 1, 2])):
+            value = odd(rng)
+            wishes = isinstance(arguments[(place := rng.randrange(len(arguments)))], dict) and rng.random() < 0.7
+            arguments[place] = {rng.choice([0, 1, 2, "x", (0, 1), -1]): value} if wishes else value
+        named = {rng.choice(options): odd(rng)} if rng.random() < 0.2 else {}
+        answered += answers(getattr(weights, name), arguments, named)
+    assert 1000 < answered < 7000
+    assert weights.refine(arch, {1: 1.0}, through).is_met is False and weights.refine(arch, {1: 1.0}).is_met

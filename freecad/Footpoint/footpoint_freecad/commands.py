@@ -4,7 +4,7 @@ import FreeCAD
 import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
-from . import measure, objects
+from . import measure, objects, weights
 from .settings import resource
 
 translate = FreeCAD.Qt.translate if hasattr(FreeCAD, "Qt") else lambda context, text, *_: text
@@ -61,6 +61,37 @@ def ask_point(start):
     return FreeCAD.Vector(*(box.value() for box in boxes)) if dialog.exec_() else None
 
 
+def ask_distances(curve):
+    """A wished distance for each pole of a curve, negative: none; None when the dialog was cancelled."""
+    dialog = QtGui.QDialog(Gui.getMainWindow())
+    dialog.setObjectName("FootpointDistances")
+    dialog.setWindowTitle(translate(CONTEXT, "Distances of the curve from its poles"))
+    dialog.resize(560, 340)
+    table = QtGui.QTableWidget(curve.pole_count, 3, dialog)
+    table.setHorizontalHeaderLabels([translate(CONTEXT, "Pole"), translate(CONTEXT, "Now"), translate(CONTEXT, "Wish")])
+    table.horizontalHeader().setSectionResizeMode(QtGui.QHeaderView.Stretch)
+    table.setEditTriggers(QtGui.QAbstractItemView.NoEditTriggers)
+    boxes = []
+    for row, (pole, now) in enumerate(zip(curve.poles.tolist(), curve.closest(curve.poles).distance.tolist())):
+        table.setItem(row, 0, QtGui.QTableWidgetItem(", ".join(f"{value:.6g}" for value in pole)))
+        table.setItem(row, 1, QtGui.QTableWidgetItem(f"{now:.6g} mm"))
+        box = QtGui.QDoubleSpinBox()
+        box.setDecimals(9)
+        box.setRange(-1, 1e9)
+        box.setSpecialValueText(translate(CONTEXT, "none"))
+        box.setValue(-1)
+        box.setSuffix(" mm")
+        table.setCellWidget(row, 2, box)
+        boxes.append(box)
+    buttons = QtGui.QDialogButtonBox(QtGui.QDialogButtonBox.Ok | QtGui.QDialogButtonBox.Cancel)
+    buttons.accepted.connect(dialog.accept)
+    buttons.rejected.connect(dialog.reject)
+    layout = QtGui.QVBoxLayout(dialog)
+    layout.addWidget(table)
+    layout.addWidget(buttons)
+    return [box.value() for box in boxes] if dialog.exec_() else None
+
+
 class _Command:
     """What the commands have in common."""
 
@@ -86,11 +117,11 @@ class _Command:
                 FreeCAD.ActiveDocument.abortTransaction()
             say(str(error))
 
-    def result(self, kind, name, target, query=None):
+    def result(self, kind, name, target, query=None, **values):
         """Adds a result in one step that can be undone."""
         document = target[0].Document
         document.openTransaction(name)
-        made = objects.make(kind, name, *target, query=query)
+        made = objects.make(kind, name, *target, query=query, **values)
         document.commitTransaction()
         return made
 
@@ -138,6 +169,27 @@ class Check(_Command):
     def run(self, target, point):
         found = self.result(objects.SeamsResult, "Seams", target)
         for line in found.Report:
+            FreeCAD.Console.PrintMessage(f"Footpoint: {line}\n")
+
+
+class Weights(_Command):
+    """Weights from distances."""
+
+    icon = "Footpoint_Weights.svg"
+    menu = QT_TRANSLATE_NOOP("Footpoint", "Weights from distances")
+    tip = QT_TRANSLATE_NOOP("Footpoint", "The rational curve over the poles of the selected spline or polygon that has wished distances from them")
+    kinds = ("Edge", "")
+    wanted = QT_TRANSLATE_NOOP("Footpoint", "Select a B-spline or Bezier edge, or a polygon.")
+
+    def run(self, target, point):
+        source, sub = target
+        if weights.polygon_of(source.Shape) is not None:
+            sub = ""  # a click selects one side of the polygon
+        curve = weights.control(source.Shape.getElement(sub) if sub else source.Shape)
+        distances = ask_distances(curve)
+        if distances is None:
+            return
+        for line in self.result(objects.WeightsResult, "Weights", (source, sub), Distances=distances).Report:
             FreeCAD.Console.PrintMessage(f"Footpoint: {line}\n")
 
 
@@ -263,7 +315,8 @@ class Legend(QtGui.QDockWidget):
         both.save(path)
 
 
-COMMANDS = {"Footpoint_Invert": Invert, "Footpoint_Closest": Closest, "Footpoint_Deviation": Deviation, "Footpoint_Check": Check}
+COMMANDS = {"Footpoint_Invert": Invert, "Footpoint_Closest": Closest, "Footpoint_Deviation": Deviation, "Footpoint_Check": Check,
+            "Footpoint_Weights": Weights}
 
 
 def register():

@@ -3,7 +3,7 @@
 import FreeCAD
 import Part
 
-from . import measure
+from . import measure, weights
 
 GROUP = "Footpoint"
 
@@ -98,19 +98,50 @@ class SeamsResult(_Result):
         obj.Label = f"Seams: {len(found.seams)}, poles: {len(found.poles)}"
 
 
+class WeightsResult(_Result):
+    """The rational curve over the poles of a spline edge or a polygon that has the wished distances from them."""
+
+    def properties(self, obj):
+        for kind, name, text in (
+                ("FloatList", "Distances", "Wished distance of the curve from each pole, in mm; negative: no wish"),
+                ("Integer", "Degree", "Degree over a polygon; 0: 3 or the number of its vertices less one"),
+                ("Float", "WeightMin", "Least weight; 0: 0.01"), ("Float", "WeightMax", "Greatest weight; 0: 100"),
+                ("Bool", "Symmetric", "Whether weights of opposite poles are equal"),
+                ("Integer", "Starts", "Most searches: what cannot be met takes as many")):
+            obj.addProperty(f"App::Property{kind}", name, "Footpoint", text)
+        obj.Starts = 200
+        _add(obj, "FloatList", "Weights", "The weights found")
+        _add(obj, "FloatList", "Achieved", "Distance of the curve from each pole, in mm")
+        _add(obj, "FloatList", "LowerBounds", "Proven: nothing of the curve is nearer to the pole than this, in mm")
+        _add(obj, "Bool", "Met", "Whether every wish is met, with proof")
+        _add(obj, "StringList", "Report", "What came of each wish")
+
+    def execute(self, obj):
+        curve = weights.control(self.shape(obj), obj.Degree)
+        found = weights.refine(curve, obj.Distances or [-1.0] * curve.pole_count, weight_min=obj.WeightMin, weight_max=obj.WeightMax,
+                               symmetric=obj.Symmetric, starts=obj.Starts)
+        obj.Distances = obj.Distances or [-1.0] * curve.pole_count
+        obj.Weights, obj.Achieved, obj.LowerBounds = (found.poles[name].tolist() for name in ("weight", "distance", "lower_bound"))
+        obj.Met, obj.Report = found.is_met, weights.lines(found)
+        obj.Shape = weights.to_freecad(found.shape).toShape()
+        obj.Label = f"Weights: {found.met} of {found.met + found.not_met + found.impossible} wishes met"
+
+
 def group(document):
     """The folder of the results in the tree."""
     found = document.getObject(GROUP)
     return found if found is not None else document.addObject("App::DocumentObjectGroup", GROUP)
 
 
-def make(kind, name, source, sub="", query=None):
-    """Adds a result for a face or edge ("Face1") of an object, computed."""
+def make(kind, name, source, sub="", query=None, **values):
+    """Adds a result for a face or edge ("Face1") of an object, computed; `values` are properties to set before that."""
     document = source.Document
     obj = document.addObject("Part::FeaturePython", name)
     kind(obj, source, sub)
     if query is not None:
         obj.Query = FreeCAD.Vector(*query)
+    for key, value in values.items():
+        setattr(obj, key, value)
     if FreeCAD.GuiUp:
         from . import views
 

@@ -2,7 +2,8 @@
 
 from .settings import resource
 
-ICONS = {"InvertResult": "Footpoint_Invert.svg", "ClosestResult": "Footpoint_Closest.svg", "SeamsResult": "Footpoint_Check.svg"}
+ICONS = {"InvertResult": "Footpoint_Invert.svg", "ClosestResult": "Footpoint_Closest.svg", "SeamsResult": "Footpoint_Check.svg",
+         "WeightsResult": "Footpoint_Weights.svg"}
 
 
 class ViewProvider:

@@ -57,6 +57,24 @@ def answer_dialog(values):
     QtCore.QTimer.singleShot(800, fill)
 
 
+def answer_distances(values):
+    """Types wishes into the dialog that the next button opens, None: no wish; without values it is cancelled."""
+    def fill():
+        dialog = QtGui.QApplication.activeModalWidget()
+        check("distances are asked for", dialog is not None and dialog.objectName() == "FootpointDistances")
+        if values is None:
+            dialog.reject()
+            return
+        table = dialog.findChild(QtGui.QTableWidget)
+        check("the dialog has a row for each pole", table.rowCount() == len(values))
+        for row, value in enumerate(values):
+            if value is not None:
+                table.cellWidget(row, 2).setValue(value)
+        shot("freecad_distances.png")
+        dialog.accept()
+    QtCore.QTimer.singleShot(800, fill)
+
+
 def part():
     """A bracket: a lofted horn on a bored plate with rounded corners."""
     plate = Part.makeBox(80, 60, 12)
@@ -132,6 +150,40 @@ def steps():
     check("invert: computed again when the source moves", abs(document.getObject("Invert").Distance - 5) > 1e-3 or not document.getObject("Invert").OnShape)
     Gui.SendMsgToActiveView("ViewFit")
     shot("freecad_results.png")
+    yield
+    for name in ("Bracket", "Ball", "Invert", "Seams", "Closest"):
+        document.getObject(name).ViewObject.Visibility = False
+    drawn = document.addObject("Part::Feature", "Polygon")
+    drawn.Shape = Part.makePolygon([V(0, 0, 0), V(15, 30, 0), V(40, 38, 0), V(70, 30, 0), V(80, 0, 0)])
+    document.recompute()
+    Gui.ActiveDocument.ActiveView.viewTop()
+    Gui.SendMsgToActiveView("ViewFit")
+    yield
+    Gui.Selection.clearSelection()
+    told = []
+    plain, commands.say = commands.say, told.append
+    Gui.Selection.addSelection(document.Name, "Bracket")
+    press("Footpoint_Weights")
+    commands.say = plain
+    check(f"weights: a part is refused: {told}", len(told) == 1 and "polygon" in told[0])
+    Gui.Selection.clearSelection()
+    Gui.Selection.addSelection(document.Name, "Polygon", "Edge2", 30, 35, 0)
+    answer_distances(None)
+    press("Footpoint_Weights")
+    check("weights: nothing comes of a cancelled dialog", document.getObject("Weights") is None)
+    answer_distances((None, 6, None, 9, None))
+    press("Footpoint_Weights")
+    found = document.getObject("Weights")
+    apart = [found.Shape.distToShape(Part.Vertex(pole))[0] for pole in (V(15, 30, 0), V(70, 30, 0))]
+    check(f"weights: distances {apart[0]:.9f} and {apart[1]:.9f} by FreeCAD, met: {found.Label}", found.Met and abs(apart[0] - 6) < 1e-6 and abs(apart[1] - 9) < 1e-6)
+    check("weights: a report line for each wish, in the tree", len(found.Report) == 2 and found in document.getObject("Footpoint").Group)
+    Gui.Selection.clearSelection()
+    Gui.Selection.addSelection(document.Name, "Weights")
+    shot("freecad_weights.png")
+    Gui.Selection.clearSelection()
+    found.ViewObject.Visibility = drawn.ViewObject.Visibility = False
+    source.ViewObject.Visibility = True
+    Gui.ActiveDocument.ActiveView.viewIsometric()
     yield
     import Points
 

@@ -14,7 +14,7 @@ import numpy as np
 import Part
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-from footpoint_freecad import measure, objects, parameters  # noqa: E402
+from footpoint_freecad import measure, objects, parameters, weights  # noqa: E402
 
 V = FreeCAD.Vector
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -175,6 +175,67 @@ def test_objects():
         again.getObject("Closest").Query = V(0, 11, 0)
         again.recompute()
         assert abs(again.getObject("Closest").Distance - 5) < 1e-12
+        FreeCAD.closeDocument(again.Name)
+
+
+def test_weights():
+    """Weights from distances: a quarter circle, a polygon, a placed, a trimmed, a periodic curve; changed, saved, refused."""
+    document = FreeCAD.newDocument("Weights")
+    corner = document.addObject("Part::Feature", "Corner")
+    corner.Shape = Part.makePolygon([V(5, 0, 0), V(5, 5, 0), V(0, 5, 0)])
+    made = objects.make(objects.WeightsResult, "Quarter", corner, "", Distances=[-1, 5 * (2**0.5 - 1), -1])
+    assert made.Met and abs(made.Weights[1] - 0.5**0.5) < 1e-12 and "pole 2" in made.Report[0] and made.Report[0].endswith(": met")
+    at = made.Shape.Edges[0]
+    assert max(abs(at.valueAt(float(u)).Length - 5) for u in np.linspace(*at.ParameterRange, 30)) < 1e-11
+    assert all(low <= found for low, found in zip(made.LowerBounds, made.Achieved)) and made.Label == "Weights: 1 of 1 wishes met"
+    made.Distances = [-1, 1, -1]
+    document.recompute()
+    assert made.Met and abs(made.Shape.distToShape(Part.Vertex(V(5, 5, 0)))[0] - 1) < 1e-7
+    corner.Placement.Base = V(0, 0, 3)
+    document.recompute()
+    assert made.Met and abs(made.Shape.distToShape(Part.Vertex(V(5, 5, 3)))[0] - 1) < 1e-7
+    spline = document.addObject("Part::Feature", "Spline")
+    spline.Shape, spline.Placement = profile().toShape(), PLACE
+    document.recompute()
+    curve = weights.control(spline.Shape)
+    assert curve.degree == 3 and max((spline.Shape.Edges[0].valueAt(u) - V(*curve.evaluate(u))).Length for u in (0.1, 0.5, 0.9)) < 1e-12
+    now = curve.closest(curve.poles).distance
+    wish = [-1, float(now[1]) * 0.7, -1, -1, -1, -1][: len(now)]
+    bent = objects.make(objects.WeightsResult, "Bent", spline, "Edge1", Distances=wish)
+    assert bent.Met and abs(bent.Shape.distToShape(Part.Vertex(V(*curve.poles[1])))[0] - wish[1]) < 1e-7
+    far = objects.make(objects.WeightsResult, "Far", spline, "", Distances=[-1, 1e3] + [-1] * (len(now) - 2))
+    assert not far.Met and far.Report[0].endswith("impossible") and far.Label == "Weights: 0 of 1 wishes met"
+    for name, shape in {"Trimmed": profile().toShape(0.2, 0.7), "Periodic": profile(True).toShape(), "Square": Part.makePolygon([V(0, 0, 0), V(4, 0, 0), V(4, 4, 0), V(0, 4, 0), V(0, 0, 0)])}.items():
+        source = document.addObject("Part::Feature", name)
+        source.Shape = shape
+        curve = weights.control(shape)
+        ends = curve.evaluate(curve.domain)
+        on = [V(*point) for point in (curve.poles[[0, -1]] if name == "Square" else curve.evaluate(np.linspace(*curve.domain, 20)))]
+        assert max(shape.distToShape(Part.Vertex(point))[0] for point in on) < 1e-9 and np.abs(ends - curve.poles[[0, -1]]).max() < 1e-9, name
+        wishes = [-1, float(curve.closest(curve.poles[1]).distance) * 0.8] + [-1] * (curve.pole_count - 2)
+        one = objects.make(objects.WeightsResult, name + "Weights", source, Distances=wishes)
+        assert one.Met and abs(one.Shape.distToShape(Part.Vertex(V(*curve.poles[1])))[0] - wishes[1]) < 1e-7 and one.Shape.isClosed() == shape.isClosed(), name
+    free = objects.make(objects.WeightsResult, "Free", corner, Degree=1)
+    assert list(free.Distances) == [-1, -1, -1] and list(free.Weights) == [1, 1, 1] and list(free.Report) == ["no wishes"]
+    count = len(document.Objects)
+    box = document.addObject("Part::Feature", "Box")
+    box.Shape = Part.makeBox(1, 2, 3)
+    for source, sub, values, text in ((box, "", {}, "polygon"), (box, "Edge1", {}, "polygon"), (corner, "", {"Distances": [1.0, 2.0]}, "3 poles"),
+                                      (corner, "", {"Degree": 7}, "degree"), (corner, "", {"WeightMin": -1.0}, "weight_min"),
+                                      (corner, "", {"Distances": [-1, float("nan"), -1]}, "wish 0")):
+        try:
+            objects.make(objects.WeightsResult, "Wrong", source, sub, **values)
+            raise AssertionError("no error")
+        except ValueError as error:
+            assert text in str(error), error
+    assert len(document.Objects) == count + 1
+    with tempfile.TemporaryDirectory() as folder:
+        document.saveAs(os.path.join(folder, "w.FCStd"))
+        FreeCAD.closeDocument(document.Name)
+        again = FreeCAD.openDocument(os.path.join(folder, "w.FCStd"))
+        again.getObject("Quarter").Distances = [-1, 2, -1]
+        again.recompute()
+        assert again.getObject("Quarter").Met and abs(again.getObject("Quarter").Achieved[1] - 2) < 1e-8
         FreeCAD.closeDocument(again.Name)
 
 

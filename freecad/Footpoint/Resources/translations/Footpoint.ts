@@ -24,6 +24,10 @@
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Distances of the curve from its poles</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Invert point</source>
         <translation type="unfinished"></translation>
     </message>
@@ -33,6 +37,14 @@
     </message>
     <message>
         <source>Nearest points</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Now</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -48,11 +60,19 @@
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Pole</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Save as CSV</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Save picture</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Select a B-spline or Bezier edge, or a polygon.</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -73,6 +93,18 @@
     </message>
     <message>
         <source>Signed distances of a point cloud, a mesh or a file from the selected face or part, as coloured points</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The rational curve over the poles of the selected spline or polygon that has wished distances from them</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Weights from distances</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Wish</source>
         <translation type="unfinished"></translation>
     </message>
 </context>
