@@ -293,6 +293,9 @@ struct CurveSearch<'a> {
 impl CurveSearch<'_> {
     /// The part of segment `k` inside the restriction, in local parameters.
     fn local_range(&self, k: usize) -> Option<[f64; 2]> {
+        if self.options.domain.is_none() {
+            return Some([0.0, 1.0]);
+        }
         let range = self.index.segments[k].u.cover(self.range);
         (range[0] < range[1]).then_some(range)
     }

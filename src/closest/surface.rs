@@ -257,6 +257,9 @@ pub(crate) fn local_interval(span: Span, range: [f64; 2]) -> Option<[f64; 2]> {
 
 impl SurfaceSearch<'_> {
     fn local_range(&self, k: usize) -> Option<[f64; 4]> {
+        if self.options.domain.is_none() {
+            return Some([0.0, 1.0, 0.0, 1.0]);
+        }
         let patch = &self.index.patches[k];
         let s = local_interval(patch.u, [self.range[0], self.range[1]])?;
         let t = local_interval(patch.v, [self.range[2], self.range[3]])?;
