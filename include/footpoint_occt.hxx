@@ -48,6 +48,7 @@
 #include <TopoDS_Face.hxx>
 #include <gp_Pnt2d.hxx>
 
+#include <cmath>
 #include <memory>
 
 namespace footpoint::occt {
@@ -94,15 +95,29 @@ public:
     /** The same for many points, on all cores by default; the order is kept. Hints are not passed on. */
     std::vector<foot> closest_many(const std::vector<gp_Pnt> &queries,
                                    const fpt_query_options &options = query_options()) {
-        cover(queries);
-        std::vector<double> points;
-        for (const gp_Pnt &q : queries) points.insert(points.end(), {q.X(), q.Y(), q.Z()});
-        fpt_query_options used = restricted(options);
-        used.hints = nullptr;
-        used.point_stride = 0;
-        std::vector<foot> out;
-        for (const fpt_foot_point &found : detail::asked([&] { return shape_->closest(points, used); }))
-            out.push_back(foot_of(found));
+        std::vector<std::size_t> order(queries.size());
+        for (std::size_t i = 0; i < order.size(); i++) order[i] = i;
+        if (is_open()) {
+            std::vector<double> far;
+            for (const gp_Pnt &q : queries) far.push_back(away(q));
+            std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return far[a] < far[b]; });
+        }
+        std::vector<foot> out(queries.size());
+        for (std::size_t begin = 0, end = 0; begin < order.size() || queries.empty(); begin = end) {
+            // Queries that one window serves well: those about as far away.
+            const double most = is_open() && end < order.size() ? 8 * away(queries[order[end]]) : HUGE_VAL;
+            std::vector<gp_Pnt> some;
+            for (; end < order.size() && (is_open() ? away(queries[order[end]]) <= most : true); end++) some.push_back(queries[order[end]]);
+            cover(some);
+            std::vector<double> points;
+            for (const gp_Pnt &q : some) points.insert(points.end(), {q.X(), q.Y(), q.Z()});
+            fpt_query_options used = restricted(options);
+            used.hints = nullptr;
+            used.point_stride = 0;
+            const std::vector<fpt_foot_point> found = detail::asked([&] { return shape_->closest(points, used); });
+            for (std::size_t i = 0; i < found.size(); i++) out[order[begin + i]] = foot_of(found[i]);
+            if (queries.empty()) break;
+        }
         return out;
     }
 
@@ -158,38 +173,43 @@ protected:
     /** Converts between finite parameters. */
     virtual void convert(const detail::range *ranges) = 0;
 
-    bool is_open() const {
-        for (int k = 0; k < Directions; k++)
-            if (detail::open(bounds_[k].low) || detail::open(bounds_[k].high)) return true;
-        return false;
+    bool is_open() const { return is_open(0) || (Directions == 2 && is_open(Directions - 1)); }
+
+    bool is_open(int k) const { return detail::open(bounds_[k].low) || detail::open(bounds_[k].high); }
+
+    /** How far a query is from the place of the shape, before it is placed; 0 for one that is not finite. */
+    double away(gp_Pnt query) const {
+        query.Transform(place_.Inverted());
+        return detail::finite(query) ? query.Distance(centre_) : 0;
     }
 
+    /** Converts what the queries need. An open direction is kept when it covers the feet and is not so long that its rounding would
+     *  be felt; it grows while it is no longer than 32 times what the query needs, and begins anew otherwise. */
     void cover(const std::vector<gp_Pnt> &queries) {
         if (!is_open()) {
             if (!shape_) detail::asked([&] { convert(bounds_); return 0; });
             return;
         }
         for (gp_Pnt query : queries) {
+            const double far = away(query);
             query.Transform(place_.Inverted());
             if (!detail::finite(query)) query = centre_;
-            const double away = query.Distance(centre_);
             detail::range ranges[Directions], old[Directions];
             for (int k = 0; k < Directions; k++) ranges[k] = bounds_[k];
             needed(query, ranges);
-            bool covered = shape_ != nullptr;
+            bool covered = shape_ != nullptr, keep = shape_ != nullptr;
+            double room[Directions];
             for (int k = 0; k < Directions; k++) {
                 old[k] = along_[k].used;
-                const bool is_open = detail::open(bounds_[k].low) || detail::open(bounds_[k].high);
-                if (covered && is_open) covered = detail::covers(bounds_[k], old[k], ranges[k]);
+                const double width = ranges[k].high - ranges[k].low;
+                room[k] = curved_ ? 0.25 * width : far > 0 ? far : 1;
+                if (!is_open(k)) continue;
+                covered = covered && detail::covers(bounds_[k], old[k], ranges[k]);
+                keep = keep && old[k].high - old[k].low <= (curved_ ? 2 : 32) * (2 * room[k] + width);
             }
-            if (covered) continue;
-            for (int k = 0; k < Directions; k++) {
-                if (detail::open(bounds_[k].low) || detail::open(bounds_[k].high))
-                    ranges[k] = detail::window(bounds_[k], ranges[k], shape_ ? &old[k] : nullptr,
-                                               curved_ ? 0.25 * (ranges[k].high - ranges[k].low) : away > 0 ? away : 1);
-                else
-                    ranges[k] = bounds_[k];
-            }
+            if (covered && keep) continue;
+            for (int k = 0; k < Directions; k++)
+                ranges[k] = is_open(k) ? detail::window(bounds_[k], ranges[k], keep ? &old[k] : nullptr, room[k]) : bounds_[k];
             detail::asked([&] { convert(ranges); return 0; });
         }
         if (!shape_) cover({centre_.Transformed(place_)});
