@@ -400,7 +400,7 @@ void misuse_throws() {
             case 7: {
                 footpoint::query_options options;
                 options.accuracy = some(), options.tolerance = some(), options.method = next(6), options.scope = next(4);
-                options.point_stride = next(60), options.reserved = next(20) == 0, options.struct_size = next(9) == 0 ? next(300) : sizeof options;
+                options.point_stride = next(60), options.reserved = next(20) == 0, options.struct_size = next(9) == 0 ? next(sizeof options + 1) : sizeof options;
                 for (double &x : options.domain) x = next(3) == 0 ? some() : 0;
                 (void)shape.invert(points(), options);
                 break;

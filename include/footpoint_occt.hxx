@@ -48,6 +48,7 @@
 #include <TopoDS_Face.hxx>
 #include <gp_Pnt2d.hxx>
 
+#include <cmath>
 #include <memory>
 
 namespace footpoint::occt {
@@ -88,44 +89,67 @@ class asked_shape {
 public:
     /** The nearest point; proven unless Flags says otherwise. A query that is not finite has FPT_FOOT_BAD_QUERY. */
     foot closest(const gp_Pnt &query, const fpt_query_options &options = single()) {
-        return closest_many({query}, options)[0];
+        cover(&query, 1);
+        const double where[3] = {query.X(), query.Y(), query.Z()};
+        fpt_query_options used = restricted(options);
+        used.hints = nullptr;
+        used.point_stride = 0;
+        fpt_foot_point found;
+        detail::asked([&] { shape_->closest(where, 1, &used, &found); return 0; });
+        return foot_of(found);
     }
 
     /** The same for many points, on all cores by default; the order is kept. Hints are not passed on. */
     std::vector<foot> closest_many(const std::vector<gp_Pnt> &queries,
                                    const fpt_query_options &options = query_options()) {
-        cover(queries);
-        std::vector<double> points;
-        for (const gp_Pnt &q : queries) points.insert(points.end(), {q.X(), q.Y(), q.Z()});
-        fpt_query_options used = restricted(options);
-        used.hints = nullptr;
-        used.point_stride = 0;
-        std::vector<foot> out;
-        for (const fpt_foot_point &found : detail::asked([&] { return shape_->closest(points, used); }))
-            out.push_back(foot_of(found));
+        std::vector<std::size_t> order(queries.size());
+        for (std::size_t i = 0; i < order.size(); i++) order[i] = i;
+        if (is_open()) {
+            std::vector<double> far;
+            for (const gp_Pnt &q : queries) far.push_back(away(q));
+            std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return far[a] < far[b]; });
+        }
+        std::vector<foot> out(queries.size());
+        for (std::size_t begin = 0, end = 0; begin < order.size() || queries.empty(); begin = end) {
+            // Queries that one window serves well: those about as far away.
+            const double most = is_open() && end < order.size() ? 8 * away(queries[order[end]]) : HUGE_VAL;
+            std::vector<gp_Pnt> some;
+            for (; end < order.size() && (is_open() ? away(queries[order[end]]) <= most : true); end++) some.push_back(queries[order[end]]);
+            cover(some.data(), some.size());
+            std::vector<double> points;
+            for (const gp_Pnt &q : some) points.insert(points.end(), {q.X(), q.Y(), q.Z()});
+            fpt_query_options used = restricted(options);
+            used.hints = nullptr;
+            used.point_stride = 0;
+            const std::vector<fpt_foot_point> found = detail::asked([&] { return shape_->closest(points, used); });
+            for (std::size_t i = 0; i < found.size(); i++) out[order[begin + i]] = foot_of(found[i]);
+            if (queries.empty()) break;
+        }
         return out;
     }
 
     /** The nearest point, found faster from parameters that are near. */
     foot closest_from(const gp_Pnt &query, Standard_Real u, Standard_Real v = 0) {
-        cover({query});
+        cover(&query, 1);
         fpt_query_options used = restricted(single());
         const double hint[2] = {along_[0].from_occt(u), Directions == 2 ? along_[Directions - 1].from_occt(v) : 0};
         used.hints = hint;
-        const std::vector<double> point{query.X(), query.Y(), query.Z()};
-        return foot_of(detail::asked([&] { return shape_->closest(point, used); })[0]);
+        const double where[3] = {query.X(), query.Y(), query.Z()};
+        fpt_foot_point found;
+        detail::asked([&] { shape_->closest(where, 1, &used, &found); return 0; });
+        return foot_of(found);
     }
 
     /** Every parameter whose point lies within the tolerance (0: 1e-7 x the diagonal of the box). */
     members preimage(const gp_Pnt &query, Standard_Real tolerance = 0) {
-        cover({query});
+        cover(&query, 1);
         const point where{query.X(), query.Y(), query.Z()};
         return members_of(detail::asked([&] { return shape_->preimage(where, tolerance, restricted(single())); }));
     }
 
     /** Every point where the distance is stationary, borders included; nearest first. */
     members extrema(const gp_Pnt &query, const fpt_extrema_options &options = extrema_options()) {
-        cover({query});
+        cover(&query, 1);
         fpt_extrema_options used = options;
         restrict(used.domain);
         const point where{query.X(), query.Y(), query.Z()};
@@ -134,7 +158,7 @@ public:
 
     /** Footpoint's shape as it is now, in its own parameters; a shape with unbounded directions: what the queries needed. */
     const Shape &shape() {
-        cover({});
+        cover(nullptr, 0);
         return *shape_;
     }
 
@@ -158,41 +182,47 @@ protected:
     /** Converts between finite parameters. */
     virtual void convert(const detail::range *ranges) = 0;
 
-    bool is_open() const {
-        for (int k = 0; k < Directions; k++)
-            if (detail::open(bounds_[k].low) || detail::open(bounds_[k].high)) return true;
-        return false;
+    bool is_open() const { return is_open(0) || (Directions == 2 && is_open(Directions - 1)); }
+
+    bool is_open(int k) const { return detail::open(bounds_[k].low) || detail::open(bounds_[k].high); }
+
+    /** How far a query is from the place of the shape, before it is placed; 0 for one that is not finite. */
+    double away(gp_Pnt query) const {
+        query.Transform(back_);
+        return detail::finite(query) ? query.Distance(centre_) : 0;
     }
 
-    void cover(const std::vector<gp_Pnt> &queries) {
+    /** Converts what the queries need. An open direction is kept when it covers the feet and is not so long that its rounding would
+     *  be felt; it grows while it is no longer than 32 times what the query needs, and begins anew otherwise. */
+    void cover(const gp_Pnt *queries, std::size_t count) {
         if (!is_open()) {
             if (!shape_) detail::asked([&] { convert(bounds_); return 0; });
             return;
         }
-        for (gp_Pnt query : queries) {
-            query.Transform(place_.Inverted());
+        for (std::size_t i = 0; i < count; i++) {
+            gp_Pnt query = queries[i].Transformed(back_);
+            const double far = away(queries[i]);
             if (!detail::finite(query)) query = centre_;
-            const double away = query.Distance(centre_);
             detail::range ranges[Directions], old[Directions];
             for (int k = 0; k < Directions; k++) ranges[k] = bounds_[k];
             needed(query, ranges);
-            bool covered = shape_ != nullptr;
+            bool covered = shape_ != nullptr, keep = shape_ != nullptr;
+            double room[Directions];
             for (int k = 0; k < Directions; k++) {
                 old[k] = along_[k].used;
-                const bool is_open = detail::open(bounds_[k].low) || detail::open(bounds_[k].high);
-                if (covered && is_open) covered = detail::covers(bounds_[k], old[k], ranges[k]);
+                const double width = ranges[k].high - ranges[k].low;
+                room[k] = curved_ ? 0.25 * width : far > 0 ? far : 1;
+                if (!is_open(k)) continue;
+                covered = covered && detail::covers(bounds_[k], old[k], ranges[k]);
+                keep = keep && old[k].high - old[k].low <= (curved_ ? 2 : 32) * (2 * room[k] + width);
             }
-            if (covered) continue;
-            for (int k = 0; k < Directions; k++) {
-                if (detail::open(bounds_[k].low) || detail::open(bounds_[k].high))
-                    ranges[k] = detail::window(bounds_[k], ranges[k], shape_ ? &old[k] : nullptr,
-                                               curved_ ? 0.25 * (ranges[k].high - ranges[k].low) : away > 0 ? away : 1);
-                else
-                    ranges[k] = bounds_[k];
-            }
+            if (covered && keep) continue;
+            for (int k = 0; k < Directions; k++)
+                ranges[k] = is_open(k) ? detail::window(bounds_[k], ranges[k], keep ? &old[k] : nullptr, room[k]) : bounds_[k];
             detail::asked([&] { convert(ranges); return 0; });
         }
-        if (!shape_) cover({centre_.Transformed(place_)});
+        const gp_Pnt some = centre_.Transformed(place_);
+        if (!shape_) cover(&some, 1);
     }
 
     /** Whether a parameter of footpoint is an end that only the conversion has. */
@@ -249,7 +279,7 @@ protected:
 
     /** OCCT's parameters that were given, perhaps without end. */
     detail::range bounds_[2] = {{0, 1}, {0, 1}};
-    gp_Trsf place_;
+    gp_Trsf place_, back_;
     /** A point of the shape before it is placed, from which windows are measured. */
     gp_Pnt centre_;
     /** The open direction goes along a conic: its parameter is no length. */
@@ -280,6 +310,7 @@ private:
         if (shape.IsNull()) throw Standard_NullObject("curve: null");
         base_ = detail::basis(shape);
         place_ = place;
+        back_ = place.Inverted();
         const bool is_periodic = base_ == shape && shape->IsPeriodic();
         bounds_[0] = detail::common({shape->FirstParameter(), shape->LastParameter()}, part,
                                     is_periodic ? shape->Period() : 0, "U");
@@ -288,7 +319,7 @@ private:
             const detail::range &u = bounds_[0];
             centre_ = base_->Value(!detail::open(u.low) ? u.low : !detail::open(u.high) ? u.high : 0);
         }
-        cover({});
+        cover(nullptr, 0);
     }
 
     void needed(const gp_Pnt &query, detail::range *ranges) const override {
@@ -365,6 +396,7 @@ private:
         if (shape.IsNull()) throw Standard_NullObject("surface: null");
         base_ = detail::plain(detail::basis(shape));
         place_ = place;
+        back_ = place.Inverted();
         const bool is_whole = detail::basis(shape) == shape;
         detail::range whole[2];
         shape->Bounds(whole[0].low, whole[0].high, whole[1].low, whole[1].high);
@@ -382,7 +414,7 @@ private:
             const auto some = [](const detail::range &r) { return !detail::open(r.low) ? r.low : !detail::open(r.high) ? r.high : 0; };
             centre_ = base_->Value(some(bounds_[0]), some(bounds_[1]));
         }
-        cover({});
+        cover(nullptr, 0);
     }
 
     void needed(const gp_Pnt &query, detail::range *ranges) const override {

@@ -229,6 +229,28 @@ void sets_and_batches() {
         expect(std::abs(one.Distance - std::abs(rim - 1)) < 1e-12, "torus", "closed form", one.Distance, std::abs(rim - 1));
     }
     expect(asked.closest_many({}).empty(), "batch", "of nothing");
+    // Near and very far queries of unbounded shapes in one batch, and one after the other: the near ones do not suffer.
+    const Handle(Geom_Surface) tube = new Geom_CylindricalSurface(gp_Ax3(), 2);
+    fo::surface long_tube(tube), floor(Handle(Geom_Surface)(new Geom_Plane(gp_Ax3())));
+    std::vector<gp_Pnt> mixed;
+    for (int i = 0; i < 400; i++) {
+        const double far = std::pow(10, between(-2, 9));
+        mixed.emplace_back(between(-far, far), between(-far, far), between(-far, far));
+    }
+    mixed[5] = gp_Pnt(0, NAN, 0);
+    mixed[6] = gp_Pnt(0, 0, 0);
+    const std::vector<fo::foot> on_tube = long_tube.closest_many(mixed), on_floor = floor.closest_many(mixed);
+    for (std::size_t i = 0; i < mixed.size(); i++) {
+        if (i == 5) continue;
+        const gp_Pnt &q = mixed[i];
+        const double grain = 4e-14 * std::max(1.0, q.XYZ().Modulus());
+        for (const fo::foot &foot : {on_tube[i], long_tube.closest(q)})
+            expect(std::abs(foot.V - q.Z()) <= grain && std::abs(foot.Distance - std::abs(std::hypot(q.X(), q.Y()) - 2)) <= grain && foot.IsProven(),
+                   "cylinder", "near and far", foot.V, q.Z());
+        for (const fo::foot &foot : {on_floor[i], floor.closest(q)})
+            expect(std::abs(foot.U - q.X()) <= grain && std::abs(foot.V - q.Y()) <= grain && std::abs(foot.Distance - std::abs(q.Z())) <= grain
+                       && foot.IsProven(), "plane", "near and far", foot.U, q.X());
+    }
     // An infinite plane, asked farther and farther out.
     fo::surface plane(Handle(Geom_Surface)(new Geom_Plane(gp_Ax3())));
     for (double x = 1e-6; x < 1e12; x *= 100) {

@@ -151,6 +151,18 @@ void curves() {
         curve_kind({"part of a spline", 3.1, 6.2, 0, 0}, new Geom_TrimmedCurve(open, 3.1, 6.2));
         curve_kind({"part over the seam of a periodic spline", b - 1.5, b + 2.2, 0, 0}, new Geom_TrimmedCurve(closed, b - 1.5, b + 2.2));
     }
+    // What OCCT's own conversion makes of closed conics: periodic, with knots as often as the degree at the seam too.
+    for (const auto &[name, conic] : {std::pair{"circle", circle}, std::pair{"ellipse", ellipse}}) {
+        const Handle(Geom_BSplineCurve) converted = GeomConvert::CurveToBSplineCurve(conic);
+        expect(converted->IsPeriodic() && converted->Multiplicity(1) == 2, name, "not what this part is for");
+        const double a = converted->FirstParameter(), b = converted->LastParameter();
+        curve_kind({std::string("converted ") + name, a, b, 0, 0}, converted);
+        curve_kind({std::string("part of a converted ") + name, b - 1, b + 1.5, 0, 0}, new Geom_TrimmedCurve(converted, b - 1, b + 1.5));
+        // The seam elsewhere: at a knot that is not the first.
+        const Handle(Geom_BSplineCurve) moved = Handle(Geom_BSplineCurve)::DownCast(converted->Copy());
+        moved->SetOrigin(2);
+        curve_kind({std::string("converted, moved ") + name, moved->FirstParameter(), moved->LastParameter(), 0, 0}, moved);
+    }
     TColgp_Array1OfPnt poles(1, 6);
     for (int i = 1; i <= 6; i++) poles(i) = gp_Pnt(i, unit() * 3, unit() * 3);
     const Handle(Geom_Curve) bezier = new Geom_BezierCurve(poles);
@@ -188,6 +200,17 @@ void surfaces() {
         if (k == 3)
             surface_kind({"part over both seams", u2 - 1, u2 + 2, v2 - 1.4, v2 + 0.3},
                          new Geom_RectangularTrimmedSurface(s, u2 - 1, u2 + 2, v2 - 1.4, v2 + 0.3));
+    }
+    const std::pair<std::string, Handle(Geom_Surface)> closed_surfaces[] = {
+        {"converted sphere", new Geom_SphericalSurface(right, 2)}, {"converted torus", new Geom_ToroidalSurface(right, 5, 1)},
+        {"converted cylinder", new Geom_RectangularTrimmedSurface(cylinder, -2., 3., Standard_False)}};
+    for (const auto &[name, shape] : closed_surfaces) {
+        const Handle(Geom_BSplineSurface) s = GeomConvert::SurfaceToBSplineSurface(shape);
+        expect(s->IsUPeriodic() && s->UMultiplicity(1) == 2, name, "not what this part is for");
+        double u1, u2, v1, v2;
+        s->Bounds(u1, u2, v1, v2);
+        surface_kind({name, u1, u2, v1, v2}, s);
+        surface_kind({"part of a " + name, u2 - 1, u2 + 0.5, v1, v2}, new Geom_RectangularTrimmedSurface(s, u2 - 1, u2 + 0.5, v1, v2));
     }
     TColgp_Array2OfPnt poles(1, 4, 1, 5);
     for (int i = 1; i <= 4; i++)
