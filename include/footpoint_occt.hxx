@@ -192,6 +192,14 @@ protected:
         return detail::finite(query) ? query.Distance(centre_) : 0;
     }
 
+    /** Converts a bounded shape; one that is not waits for its first query, but must be of a kind that can be converted. */
+    void begin() {
+        if (!is_open()) return cover(nullptr, 0);
+        detail::range ranges[Directions];
+        for (int k = 0; k < Directions; k++) ranges[k] = bounds_[k];
+        needed(centre_, ranges);
+    }
+
     /** Converts what the queries need. An open direction is kept when it covers the feet and is not so long that its rounding would
      *  be felt; it grows while it is no longer than 32 times what the query needs, and begins anew otherwise. */
     void cover(const gp_Pnt *queries, std::size_t count) {
@@ -319,7 +327,7 @@ private:
             const detail::range &u = bounds_[0];
             centre_ = base_->Value(!detail::open(u.low) ? u.low : !detail::open(u.high) ? u.high : 0);
         }
-        cover(nullptr, 0);
+        begin();
     }
 
     void needed(const gp_Pnt &query, detail::range *ranges) const override {
@@ -414,7 +422,7 @@ private:
             const auto some = [](const detail::range &r) { return !detail::open(r.low) ? r.low : !detail::open(r.high) ? r.high : 0; };
             centre_ = base_->Value(some(bounds_[0]), some(bounds_[1]));
         }
-        cover(nullptr, 0);
+        begin();
     }
 
     void needed(const gp_Pnt &query, detail::range *ranges) const override {
