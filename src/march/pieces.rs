@@ -1,0 +1,455 @@
+//! A surface as Bezier patches that are halved on demand, each part with what the tests of a pair ask of it.
+//!
+//! ```text
+//!   patch ── halved along the direction that bends more ── part ── part ...        kept, so that partners share them
+//!   part: box and poles on [0, 1]^2        slopes on [-1/4, 5/4]^2, the reach of a graph that is proven (`pair`)
+//! ```
+//!
+//! A part's own parameters run over [-1, 1]: slopes are lengths per half width. Rounding is counted beforehand: positions are off by
+//! at most [`Pieces::error`], slopes by `Slopes::error`.
+
+use crate::bezier::extraction;
+use crate::bounds::{Aabb, HALF_ULP, Vector, add, cross, norm, scaled, sub};
+use crate::knots::Knots;
+use crate::surface::Surface;
+
+/// How far the reach of a part goes beyond it on each side, as a share of its width.
+const BEYOND: f64 = 0.25;
+
+type Pole = [f64; 4];
+
+/// One Bezier patch.
+pub struct Patch {
+    /// Parameters of u.
+    pub u: [f64; 2],
+    /// Parameters of v.
+    pub v: [f64; 2],
+    /// Homogeneous poles around `center`.
+    poles: Box<[Pole]>,
+    center: Vector,
+    /// Its whole as a part.
+    pub root: u32,
+    /// Which of its sides u low, u high, v low, v high are one point.
+    pub collapsed: [bool; 4],
+}
+
+/// First derivatives over the reach of a part: hulls of numerators, and what a weight adds.
+pub struct Slopes {
+    /// Vectors whose hull holds the numerator of the slope along each parameter.
+    pub hull: [Box<[Vector]>; 2],
+    /// Least and greatest weight, where the middle has 1.
+    pub weight: [f64; 2],
+    /// What the weight's own slope may add to each coordinate, along each parameter.
+    pub added: [Vector; 2],
+    /// How far rounding may move a slope.
+    pub error: f64,
+}
+
+/// A part of a patch.
+pub struct Part {
+    /// The patch.
+    pub patch: u32,
+    /// Its box in the unit parameters of the patch.
+    pub low: [f64; 2],
+    /// The other end.
+    pub high: [f64; 2],
+    /// Homogeneous poles around `center`.
+    poles: Box<[Pole]>,
+    center: Vector,
+    /// Poles in space: their hull holds the part.
+    pub hull: Box<[Vector]>,
+    /// Box of `hull`.
+    pub aabb: Aabb,
+    /// The point in the middle.
+    pub at: Vector,
+    /// Slopes in the middle.
+    pub slope: [Vector; 2],
+    /// Unit normal in the middle, or zero.
+    pub normal: Vector,
+    /// Slopes everywhere; `None` where a weight is not positive on the reach.
+    pub slopes: Option<Slopes>,
+    /// How far slopes differ from the middle one, in length.
+    pub bend: f64,
+    /// The collapsed side of the patch that it touches: 0 to 3.
+    pub pole: Option<usize>,
+    split: u8,
+    halves: Option<[u32; 2]>,
+}
+
+/// A surface in pieces.
+pub struct Pieces {
+    degree: [usize; 2],
+    rational: bool,
+    /// The patches; (a, b) at `a * columns + b`.
+    pub patches: Vec<Patch>,
+    /// Patches in v.
+    pub columns: usize,
+    /// Parts made so far.
+    pub parts: Vec<Part>,
+    /// How far a position may be off.
+    pub error: f64,
+}
+
+fn extracted(knots: &Knots) -> Vec<(usize, [f64; 2], Vec<f64>)> {
+    let size = knots.degree() + 1;
+    let make = |span: usize| {
+        let ends = [knots.values()[span], knots.values()[span + 1]];
+        let mut matrix = vec![0.0; size * size];
+        extraction(knots, span, ends, &mut matrix);
+        (span, ends, matrix)
+    };
+    knots.spans().map(make).collect()
+}
+
+impl Pieces {
+    /// Cuts a surface at its knots.
+    pub fn new(surface: &Surface) -> Self {
+        let (ku, kv) = (surface.knots_u(), surface.knots_v());
+        let (us, vs) = (extracted(ku), extracted(kv));
+        let degree = [ku.degree(), kv.degree()];
+        let columns = vs.len();
+        let mut pieces = Self {
+            degree,
+            rational: surface.is_rational(),
+            patches: Vec::with_capacity(us.len() * columns),
+            columns,
+            parts: Vec::new(),
+            error: 0.0,
+        };
+        let size = surface.poles().iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
+        let steps = 16 * (degree[0] + degree[1] + 2);
+        pieces.error = steps as f64 * HALF_ULP * size;
+        let edges = [0, 1, 2, 3].map(|k| surface.collapsed_spread(k) <= 4.0 * pieces.error);
+        for (i, (span_u, u, mu)) in us.iter().enumerate() {
+            for (j, (span_v, v, mv)) in vs.iter().enumerate() {
+                let (poles, center) = local_poles(surface, [*span_u, *span_v], mu, mv);
+                let root = pieces.parts.len() as u32;
+                let patch = pieces.patches.len() as u32;
+                let at = [i == 0, i + 1 == us.len(), j == 0, j + 1 == columns];
+                let collapsed = [0, 1, 2, 3].map(|k| at[k] && edges[k]);
+                pieces.patches.push(Patch { u: *u, v: *v, poles: poles.clone(), center, root, collapsed });
+                let part = pieces.part(patch, [0.0; 2], [1.0; 2], poles, center);
+                pieces.parts.push(part);
+            }
+        }
+        pieces
+    }
+
+    fn width(&self) -> usize {
+        self.degree[1] + 1
+    }
+
+    fn part(&self, patch: u32, low: [f64; 2], high: [f64; 2], poles: Box<[Pole]>, c: Vector) -> Part {
+        let hull: Box<[Vector]> =
+            poles.iter().map(|p| add(c, [p[0] / p[3], p[1] / p[3], p[2] / p[3]])).collect();
+        let mut aabb = Aabb::EMPTY;
+        hull.iter().for_each(|&p| aabb.include(p));
+        let [p, pu, pv] = homogeneous(&poles, self.degree, [0.5; 2]);
+        let middle = [0, 1, 2].map(|k| p[k] / p[3]);
+        let slope =
+            [pu, pv].map(|d| [0, 1, 2].map(|k| 0.5 * (d[k] - middle[k] * d[3]) / p[3]));
+        let normal = cross(slope[0], slope[1]);
+        let length = norm(normal);
+        let flat = length <= 1e-14 * norm(slope[0]) * norm(slope[1]) || length == 0.0;
+        let radius = poles.iter().fold(0.0f64, |m, q| m.max(norm([q[0], q[1], q[2]]) / q[3]));
+        let slopes = self.slopes(&poles, middle, p[3], radius);
+        let mut bend = f64::INFINITY;
+        if let Some(slopes) = &slopes {
+            let far = |k: usize| {
+                let hull = slopes.hull[k].iter();
+                hull.fold(0.0f64, |m, &v| m.max(norm(sub(v, slope[k])))) + norm(slopes.added[k])
+            };
+            bend = far(0) + far(1) + (slopes.weight[1] - slopes.weight[0]) * (norm(slope[0]) + norm(slope[1]));
+        }
+        let on = [low[0] == 0.0, high[0] == 1.0, low[1] == 0.0, high[1] == 1.0];
+        let pole = (0..4).find(|&k| on[k] && self.patches[patch as usize].collapsed[k]);
+        // Toward a collapsed edge parts get shorter, not narrower.
+        let split = pole.map(|side| side as u8 / 2).unwrap_or_else(|| self.direction(&poles, [norm(slope[0]), norm(slope[1])], [low, high]));
+        Part {
+            pole,
+            patch,
+            low,
+            high,
+            hull,
+            aabb,
+            at: add(c, middle),
+            slope,
+            normal: if flat { [0.0; 3] } else { scaled(normal, 1.0 / length) },
+            slopes,
+            bend,
+            split,
+            halves: None,
+            center: c,
+            poles,
+        }
+    }
+
+    /// Which parameter to halve: the one along which second differences are greater; the longer one where nothing bends.
+    fn direction(&self, poles: &[Pole], slope: [f64; 2], [low, high]: [[f64; 2]; 2]) -> u8 {
+        let (width, mut second) = (self.width(), [0.0f64; 2]);
+        let difference = |a: Pole, b: Pole, c: Pole| {
+            let at = |k: usize| a[k] / a[3] - 2.0 * b[k] / b[3] + c[k] / c[3];
+            norm([at(0), at(1), at(2)])
+        };
+        let factor = |n: usize| (n * n.max(2)) as f64;
+        for i in 0..=self.degree[0] {
+            for j in 0..width {
+                let at = i * width + j;
+                if i >= 2 {
+                    let d = difference(poles[at - 2 * width], poles[at - width], poles[at]);
+                    second[0] = second[0].max(d * factor(self.degree[0]));
+                }
+                if j >= 2 {
+                    let d = difference(poles[at - 2], poles[at - 1], poles[at]);
+                    second[1] = second[1].max(d * factor(self.degree[1]));
+                }
+            }
+        }
+        let length = slope[0] + slope[1];
+        let share = [0, 1].map(|k| high[k] - low[k]);
+        // A part that is much longer one way than the other in its patch serves no test.
+        if share[0] > 64.0 * share[1] && slope[0] > 0.0 {
+            return 0;
+        }
+        if share[1] > 64.0 * share[0] && slope[1] > 0.0 {
+            return 1;
+        }
+        if second[0].max(second[1]) <= 1e-3 * length { u8::from(slope[1] > slope[0]) } else { u8::from(second[1] > second[0]) }
+    }
+
+    fn slopes(&self, poles: &[Pole], middle: Vector, w: f64, radius: f64) -> Option<Slopes> {
+        let (degree, width) = (self.degree, self.width());
+        let mut net: Vec<Pole> = poles
+            .iter()
+            .map(|q| {
+                let x = |k: usize| (q[k] - middle[k] * q[3]) / w;
+                [x(0), x(1), x(2), q[3] / w]
+            })
+            .collect();
+        stretch(&mut net, degree);
+        let mut weight = [1.0f64; 2];
+        let mut reach = [0.0f64; 3];
+        for q in &net {
+            weight = [weight[0].min(q[3]), weight[1].max(q[3])];
+            if q[3] <= 0.05 {
+                return None;
+            }
+            for k in 0..3 {
+                reach[k] = reach[k].max((q[k] / q[3]).abs());
+            }
+        }
+        // The reach is one and a half times as wide, and a part's own parameters run over two units.
+        let per = |n: usize| n as f64 / (2.0 * (1.0 + 2.0 * BEYOND));
+        let mut weight_slope = [0.0f64; 2];
+        let mut differences = |k: usize, step: usize| -> Box<[Vector]> {
+            let inside = |at: &usize| if k == 0 { at + step < net.len() } else { at % width + 1 < width };
+            (0..net.len())
+                .filter(inside)
+                .map(|at| {
+                    let d = |c: usize| per(degree[k]) * (net[at + step][c] - net[at][c]);
+                    weight_slope[k] = weight_slope[k].max(d(3).abs());
+                    [d(0), d(1), d(2)]
+                })
+                .collect()
+        };
+        let hull = [differences(0, width), differences(1, 1)];
+        let added = weight_slope.map(|s| if self.rational { scaled(reach, s / weight[0]) } else { [0.0; 3] });
+        if !self.rational {
+            weight = [1.0; 2];
+        }
+        let growth = 2.1f64.powi((degree[0] + degree[1]) as i32) * 32.0 * HALF_ULP;
+        Some(Slopes { hull, weight, added, error: growth * (radius + norm(reach)) })
+    }
+
+    /// The halves of a part, made now if they were not there.
+    pub fn halves(&mut self, k: u32) -> [u32; 2] {
+        let part = &self.parts[k as usize];
+        if let Some(halves) = part.halves {
+            return halves;
+        }
+        let (patch, d) = (part.patch, part.split as usize);
+        let (mut low, mut high) = (part.poles.clone(), part.poles.clone());
+        halve(&mut low, &mut high, self.degree, d);
+        let middle = 0.5 * (part.low[d] + part.high[d]);
+        let (mut end, mut start) = (part.high, part.low);
+        end[d] = middle;
+        start[d] = middle;
+        let (first, last) = (part.low, part.high);
+        let center = part.center;
+        // Around a pole of its own, so that rounding is relative to the part and not to the patch.
+        let recentred = |mut net: Box<[Pole]>| {
+            let p = net[net.len() / 2];
+            let by = [0, 1, 2].map(|k| p[k] / p[3]);
+            for q in &mut net {
+                for k in 0..3 {
+                    q[k] -= by[k] * q[3];
+                }
+            }
+            (net, add(center, by))
+        };
+        let (low, c0) = recentred(low);
+        let (high, c1) = recentred(high);
+        let halves = [self.part(patch, first, end, low, c0), self.part(patch, start, last, high, c1)];
+        let at = self.parts.len() as u32;
+        self.parts.extend(halves);
+        self.parts[k as usize].halves = Some([at, at + 1]);
+        [at, at + 1]
+    }
+
+    /// Point and slopes of a patch at unit parameters, a little outside too.
+    pub fn jet(&self, patch: u32, at: [f64; 2]) -> [Vector; 3] {
+        let patch = &self.patches[patch as usize];
+        let [p, pu, pv] = homogeneous(&patch.poles, self.degree, at);
+        let x = [0, 1, 2].map(|k| p[k] / p[3]);
+        let slope = |d: Pole| [0, 1, 2].map(|k| (d[k] - x[k] * d[3]) / p[3]);
+        [add(patch.center, x), slope(pu), slope(pv)]
+    }
+
+    /// The caller's parameters of a place in a patch.
+    pub fn global(&self, patch: u32, at: [f64; 2]) -> [f64; 2] {
+        let patch = &self.patches[patch as usize];
+        let on = |[a, b]: [f64; 2], s: f64| if s <= 0.5 { a + s * (b - a) } else { b - (1.0 - s) * (b - a) };
+        [on(patch.u, at[0]), on(patch.v, at[1])].map(|x| x)
+    }
+
+    /// The unit parameters in a patch of the caller's parameters.
+    pub fn local(&self, patch: u32, at: [f64; 2]) -> [f64; 2] {
+        let patch = &self.patches[patch as usize];
+        let on = |[a, b]: [f64; 2], u: f64| if u - a <= b - u { (u - a) / (b - a) } else { 1.0 - (b - u) / (b - a) };
+        [on(patch.u, at[0]), on(patch.v, at[1])]
+    }
+
+    /// The patches that hold a place, those beside a knot line both.
+    pub fn patches_at(&self, at: [f64; 2]) -> Vec<u32> {
+        let near = |[a, b]: [f64; 2], u: f64| {
+            let slack = 1e-9 * (b - a);
+            a - slack <= u && u <= b + slack
+        };
+        let rows = self.patches.len() / self.columns;
+        let mut found = Vec::new();
+        for a in 0..rows {
+            if near(self.patches[a * self.columns].u, at[0]) {
+                let row = a * self.columns;
+                found.extend((row..row + self.columns).filter(|&k| near(self.patches[k].v, at[1])).map(|k| k as u32));
+            }
+        }
+        found
+    }
+}
+
+fn local_poles(surface: &Surface, spans: [usize; 2], mu: &[f64], mv: &[f64]) -> (Box<[Pole]>, Vector) {
+    let (p, q) = (surface.knots_u().degree(), surface.knots_v().degree());
+    let columns = surface.knots_v().pole_count();
+    let at = |i: usize, j: usize| (spans[0] - p + i) * columns + spans[1] - q + j;
+    let center = surface.poles()[at(p / 2, q / 2)];
+    let weights = surface.weights().filter(|_| surface.is_rational());
+    let mut half = vec![[0.0; 4]; (p + 1) * (q + 1)];
+    for i in 0..=p {
+        for j in 0..=q {
+            for l in 0..=q {
+                let k = at(i, l);
+                let w = weights.map_or(1.0, |w| w[k]) * mv[j * (q + 1) + l];
+                let x = sub(surface.poles()[k], center);
+                let sum = &mut half[i * (q + 1) + j];
+                for c in 0..3 {
+                    sum[c] += w * x[c];
+                }
+                sum[3] += w;
+            }
+        }
+    }
+    let mut poles = vec![[0.0; 4]; half.len()];
+    for i in 0..=p {
+        for j in 0..=q {
+            for l in 0..=p {
+                for c in 0..4 {
+                    poles[i * (q + 1) + j][c] += mu[i * (p + 1) + l] * half[l * (q + 1) + j][c];
+                }
+            }
+            if weights.is_none() {
+                poles[i * (q + 1) + j][3] = 1.0;
+            }
+        }
+    }
+    (poles.into(), center)
+}
+
+/// Homogeneous point and derivatives by the unit parameters.
+fn homogeneous(poles: &[Pole], degree: [usize; 2], at: [f64; 2]) -> [Pole; 3] {
+    let width = degree[1] + 1;
+    let mut rows = [[0.0; 4]; 32];
+    let mut slopes = [[0.0; 4]; 32];
+    for i in 0..=degree[0] {
+        let [x, dx] = casteljau(&poles[i * width..(i + 1) * width], at[1]);
+        rows[i] = x;
+        slopes[i] = dx;
+    }
+    let [x, du] = casteljau(&rows[..=degree[0]], at[0]);
+    let [dv, _] = casteljau(&slopes[..=degree[0]], at[0]);
+    [x, du, dv]
+}
+
+/// Value and derivative of one row of poles.
+fn casteljau(poles: &[Pole], s: f64) -> [Pole; 2] {
+    let n = poles.len() - 1;
+    let mut work = [[0.0; 4]; 32];
+    work[..=n].copy_from_slice(poles);
+    if n == 0 {
+        return [work[0], [0.0; 4]];
+    }
+    for level in 1..n {
+        for k in 0..=n - level {
+            for c in 0..4 {
+                work[k][c] = (1.0 - s) * work[k][c] + s * work[k + 1][c];
+            }
+        }
+    }
+    let (a, b) = (work[0], work[1]);
+    let value = [0, 1, 2, 3].map(|c| (1.0 - s) * a[c] + s * b[c]);
+    [value, [0, 1, 2, 3].map(|c| n as f64 * (b[c] - a[c]))]
+}
+
+/// Splits a net at the middle of a direction.
+fn halve(low: &mut [Pole], high: &mut [Pole], degree: [usize; 2], direction: usize) {
+    let width = degree[1] + 1;
+    let (n, step, lines) = if direction == 0 { (degree[0], width, width) } else { (degree[1], 1, degree[0] + 1) };
+    for line in 0..lines {
+        let at = |k: usize| if direction == 0 { line + k * step } else { line * width + k };
+        for level in 0..n {
+            high[at(n - level)] = low[at(n)];
+            for k in (level + 1..=n).rev() {
+                for c in 0..4 {
+                    low[at(k)][c] = 0.5 * (low[at(k)][c] + low[at(k - 1)][c]);
+                }
+            }
+        }
+        high[at(0)] = low[at(n)];
+    }
+}
+
+/// Replaces a net on [0, 1]^2 by that on the reach.
+fn stretch(net: &mut [Pole], degree: [usize; 2]) {
+    let width = degree[1] + 1;
+    let (end, start) = (1.0 + BEYOND, -BEYOND / (1.0 + BEYOND));
+    for direction in 0..2 {
+        let n = degree[direction];
+        let lines = if direction == 0 { width } else { degree[0] + 1 };
+        for line in 0..lines {
+            let at = |k: usize| if direction == 0 { line + k * width } else { line * width + k };
+            for level in 1..=n {
+                for k in (level..=n).rev() {
+                    for c in 0..4 {
+                        net[at(k)][c] = (1.0 - end) * net[at(k - 1)][c] + end * net[at(k)][c];
+                    }
+                }
+            }
+            for level in 1..=n {
+                for k in 0..=n - level {
+                    for c in 0..4 {
+                        net[at(k)][c] = (1.0 - start) * net[at(k)][c] + start * net[at(k + 1)][c];
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,321 @@
+//! All arcs of the intersection: pairs of parts are judged, and halved until nothing is open.
+//!
+//! ```text
+//!   pairs of patches whose boxes meet -> judge -> empty | one arc | halve the part that bends more
+//!                                                              |
+//!          surfaces touch here to the last digits, along a curve or everywhere: kept for `trace`, `overlap`
+//!          flat to the last digits: kept as undecided (a touching point, a branch point, a collapsed edge)
+//! ```
+//!
+//! Level by level, so that a budget that runs out leaves boxes of equal size. Cost: linear in the length of the curves; a touching
+//! point takes a constant number of pairs a level.
+
+use super::contact::{into_domain, look, settle};
+use super::pair::{Arc, Clip, Verdict, judge};
+use super::pieces::{Part, Pieces};
+use crate::bounds::{Aabb, HALF_ULP, Vector, cross, dot, norm, sub};
+use crate::error::Error;
+use crate::surface::Surface;
+
+/// Halvings of a pair after which touching along a curve is looked for.
+const LEVEL_OF_CURVES: u32 = 12;
+
+/// Halvings of a pair after which coincidence is looked for.
+const LEVEL_OF_AREAS: u32 = 8;
+
+/// Pairs between two looks at whether to stop.
+const GROUP: u64 = 256;
+
+/// Parts of a surface are at most this many: what they hold is memory.
+const MOST_PARTS: usize = 2_000_000;
+
+/// What a pair that was not divided further is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Open {
+    /// The surfaces touch along a curve there.
+    Curve,
+    /// They coincide there.
+    Area,
+    /// Both parts are flat to the last digits, and still nothing is known.
+    Flat,
+    /// The budget ran out.
+    Budget,
+}
+
+/// A pair that was not divided further: a box of u, v, s, t.
+#[derive(Clone, Copy, Debug)]
+pub struct OpenPair {
+    /// Why.
+    pub why: Open,
+    /// Least parameters.
+    pub low: [f64; 4],
+    /// Greatest parameters.
+    pub high: [f64; 4],
+    /// Size of the smaller part, a length: what the two have in common is not larger.
+    pub size: f64,
+}
+
+/// An arc with the sides of the patches at its ends.
+pub struct Found {
+    /// The arc.
+    pub arc: Arc,
+    /// Side of a patch (2 q + high, q = u, v, s, t) at its low and high end.
+    pub ends: [Option<usize>; 2],
+}
+
+/// The search and what it found.
+pub struct Search<'a> {
+    /// The surfaces in the frame of the search.
+    pub surfaces: [&'a Surface; 2],
+    /// A in pieces.
+    pub a: Pieces,
+    /// B in pieces.
+    pub b: Pieces,
+    /// Lengths below this are rounding.
+    pub floor: f64,
+    /// Arcs, in the order in which they were found.
+    pub found: Vec<Found>,
+    /// What is open.
+    pub open: Vec<OpenPair>,
+    /// Collapsed edges that come near the other surface: whose (0, 1), and which side.
+    pub tips: Vec<(usize, usize)>,
+    /// Pairs judged.
+    pub judged: u64,
+}
+
+impl<'a> Search<'a> {
+    /// Prepares two surfaces of size about one around the origin; `noise`: what their poles may be off.
+    pub fn new(surfaces: [&'a Surface; 2], noise: f64) -> Self {
+        let (a, b) = (Pieces::new(surfaces[0]), Pieces::new(surfaces[1]));
+        let floor = 256.0 * HALF_ULP + 4.0 * (noise + a.error + b.error);
+        Self { surfaces, a, b, floor, found: Vec::new(), open: Vec::new(), tips: Vec::new(), judged: 0 }
+    }
+
+    /// Judges all pairs, at most `budget`.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] when `poll(judged, waiting)` said so.
+    pub fn run(&mut self, budget: u64, poll: &mut dyn FnMut(u64, u64) -> bool) -> Result<(), Error> {
+        let mut waiting = self.first_pairs();
+        let mut level = 0;
+        while !waiting.is_empty() {
+            let mut next = Vec::new();
+            for (k, &pair) in waiting.iter().enumerate() {
+                if self.judged >= budget || self.a.parts.len() + self.b.parts.len() > MOST_PARTS {
+                    for &pair in waiting[k..].iter().chain(&next) {
+                        self.leave(pair, Open::Budget);
+                    }
+                    return Ok(());
+                }
+                if self.judged.is_multiple_of(GROUP) && poll(self.judged, (waiting.len() - k + next.len()) as u64) {
+                    return Err(Error::Cancelled);
+                }
+                self.step(pair, level, &mut next);
+            }
+            waiting = next;
+            level += 1;
+        }
+        Ok(())
+    }
+
+    /// Pairs of patches whose boxes meet: blocks of B's patches first.
+    fn first_pairs(&self) -> Vec<(u32, u32)> {
+        const BLOCK: usize = 32;
+        let meets = |a: &Aabb, b: &Aabb| (0..3).all(|k| a.low[k] <= b.high[k] + self.floor && b.low[k] <= a.high[k] + self.floor);
+        let of = |pieces: &Pieces, k: usize| pieces.parts[pieces.patches[k].root as usize].aabb;
+        let blocks: Vec<Aabb> = (0..self.b.patches.len().div_ceil(BLOCK))
+            .map(|block| {
+                let last = ((block + 1) * BLOCK).min(self.b.patches.len());
+                (block * BLOCK..last).fold(Aabb::EMPTY, |all, k| all.union(of(&self.b, k)))
+            })
+            .collect();
+        let mut pairs = Vec::new();
+        for i in 0..self.a.patches.len() {
+            let ours = of(&self.a, i);
+            for (block, aabb) in blocks.iter().enumerate() {
+                if !meets(&ours, aabb) {
+                    continue;
+                }
+                for j in block * BLOCK..((block + 1) * BLOCK).min(self.b.patches.len()) {
+                    if meets(&ours, &of(&self.b, j)) {
+                        pairs.push((self.a.patches[i].root, self.b.patches[j].root));
+                    }
+                }
+            }
+        }
+        pairs
+    }
+
+    fn step(&mut self, (i, j): (u32, u32), level: u32, next: &mut Vec<(u32, u32)>) {
+        self.judged += 1;
+        let (a, b) = (&self.a.parts[i as usize], &self.b.parts[j as usize]);
+        let by_size = size(a) >= size(b);
+        let halve_first = match judge(a, b, self.a.error + self.b.error + 0.25 * self.floor) {
+            Verdict::Empty => return,
+            Verdict::Arc(arc) => match self.keep(*arc, [i, j]) {
+                true => return,
+                false => by_size,
+            },
+            Verdict::Halve(first) => first,
+        };
+        let (a, b) = (&self.a.parts[i as usize], &self.b.parts[j as usize]);
+        if let Some(tip) = self.tip(a, b) {
+            if !self.tips.contains(&tip) {
+                self.tips.push(tip);
+            }
+            return;
+        }
+        let thin = 8.0 * self.floor;
+        let flat = a.bend.min(1e9) + b.bend.min(1e9) <= 0.5 * thin
+            || is_slab(a.normal, a, b, thin)
+            || is_slab(b.normal, a, b, thin);
+        let narrow = |p: &Part| (0..2).any(|k| p.high[k] - p.low[k] < 1e-12);
+        if flat || narrow(a) || narrow(b) {
+            let why = if level < 2 && self.coincide(a, b) { Open::Area } else { Open::Flat };
+            return self.leave((i, j), why);
+        }
+        if level >= LEVEL_OF_AREAS && level.is_multiple_of(2) && parallel(a, b) {
+            if let Some(why) = self.touching(a, b, level) {
+                return self.leave((i, j), why);
+            }
+        }
+        if halve_first {
+            next.extend(self.a.halves(i).map(|i| (i, j)));
+        } else {
+            next.extend(self.b.halves(j).map(|j| (i, j)));
+        }
+    }
+
+    /// Within this of a collapsed edge the surface counts as a point.
+    pub fn tip_size(&self) -> f64 {
+        2048.0 * self.floor
+    }
+
+    /// Whether one of two parts is the end of a surface at a collapsed edge, and as good as a point.
+    fn tip(&self, a: &Part, b: &Part) -> Option<(usize, usize)> {
+        let is_tip = |part: &Part| part.pole.filter(|_| part.aabb.diagonal() <= self.tip_size());
+        is_tip(a).map(|side| (0, side)).or_else(|| is_tip(b).map(|side| (1, side)))
+    }
+
+    /// Keeps the part of an arc that is inside the patches; false when that is not clear.
+    fn keep(&mut self, mut arc: Arc, parts: [u32; 2]) -> bool {
+        let slack = self.slack(&arc, parts);
+        match arc.clip(&self.a, &self.b, slack) {
+            Clip::Outside => true,
+            Clip::Unclear => false,
+            Clip::Kept(ends) => {
+                self.found.push(Found { arc, ends });
+                true
+            }
+        }
+    }
+
+    /// How far parameters may leave the patches, in unit parameters: what rounding does to them.
+    fn slack(&self, arc: &Arc, [i, j]: [u32; 2]) -> [f64; 4] {
+        let (a, b) = (&self.a.parts[i as usize], &self.b.parts[j as usize]);
+        let slope = [a.slope[0], a.slope[1], b.slope[0], b.slope[1]].map(norm);
+        [0, 1, 2, 3].map(|q| {
+            let most = 0.01 * arc.half[q];
+            (self.floor * arc.half[q] / slope[q].max(1e-300)).clamp(1e-14f64.min(most), most)
+        })
+    }
+
+    fn leave(&mut self, (i, j): (u32, u32), why: Open) {
+        let (a, b) = (&self.a.parts[i as usize], &self.b.parts[j as usize]);
+        let ends = |a_at: [f64; 2], b_at: [f64; 2]| {
+            let ([u, v], [s, t]) = (self.a.global(a.patch, a_at), self.b.global(b.patch, b_at));
+            [u, v, s, t]
+        };
+        let (low, high) = (ends(a.low, b.low), ends(a.high, b.high));
+        let size = a.aabb.diagonal().min(b.aabb.diagonal());
+        self.open.push(OpenPair { why, low, high, size });
+    }
+
+    fn middle(&self, a: &Part, b: &Part) -> [f64; 4] {
+        let half = |p: &Part| [0.5 * (p.low[0] + p.high[0]), 0.5 * (p.low[1] + p.high[1])];
+        let ([u, v], [s, t]) = (self.a.global(a.patch, half(a)), self.b.global(b.patch, half(b)));
+        [u, v, s, t]
+    }
+
+    /// Whether the surfaces touch in this pair along a curve, or coincide, to the last digits.
+    fn touching(&self, a: &Part, b: &Part, level: u32) -> Option<Open> {
+        if self.coincide(a, b) {
+            return Some(Open::Area);
+        }
+        let (sa, sb) = (self.surfaces[0], self.surfaces[1]);
+        let start = self.middle(a, b);
+        let reach = size(a).max(size(b));
+        let touch = settle(sa, sb, start, reach)?;
+        if level < LEVEL_OF_CURVES || touch.gap.abs() > self.floor || touch.slope > 1e-7 || touch.rank() != 1 {
+            return None;
+        }
+        // The same must hold a little farther along the curve, on both sides.
+        let goes_on = |sign: f64| {
+            let by = 0.5 * sign * size(a).min(size(b));
+            let moved = [0, 1].map(|k| start[k] + by * touch.step[1][k]);
+            let moved = into_domain(sa, moved);
+            settle(sa, sb, [moved[0], moved[1], touch.at[2], touch.at[3]], reach).is_some_and(|t| {
+                let there = sa.evaluate(t.at[0], t.at[1]);
+                let moved = norm(sub(there, sa.evaluate(touch.at[0], touch.at[1]))) > 0.25 * by.abs();
+                moved && t.gap.abs() <= self.floor && t.rank() == 1 && t.slope <= 1e-7
+            })
+        };
+        (goes_on(1.0) && goes_on(-1.0)).then_some(Open::Curve)
+    }
+
+    /// Whether gap and relative curvatures are rounding at nine places of either part, as far as they lie over the other surface.
+    fn coincide(&self, a: &Part, b: &Part) -> bool {
+        let middle = self.middle(a, b);
+        let (uv, st) = ([middle[0], middle[1]], [middle[2], middle[3]]);
+        let Some(ours) = self.on_other([0, 1], a, st) else { return false };
+        let Some(theirs) = self.on_other([1, 0], b, uv) else { return false };
+        ours + theirs > 0
+    }
+
+    /// At how many of nine places of a part the other surface coincides; `None` when it does not at one that lies over it.
+    fn on_other(&self, [own, other]: [usize; 2], part: &Part, near: [f64; 2]) -> Option<usize> {
+        let (surface, other) = (self.surfaces[own], self.surfaces[other]);
+        let pieces = if own == 0 { &self.a } else { &self.b };
+        let mut seen = 0;
+        for n in 0..9 {
+            let share = [0.5 * (n / 3) as f64, 0.5 * (n % 3) as f64];
+            let at = [0, 1].map(|k| part.low[k] + share[k] * (part.high[k] - part.low[k]));
+            let at = pieces.global(part.patch, at);
+            // A collapsed edge has no tangent plane: the other places decide.
+            let Some((touch, _)) = look(surface, other, at, near) else { continue };
+            let apart = norm(sub(surface.evaluate(at[0], at[1]), other.evaluate(touch.at[2], touch.at[3])));
+            if apart > 2.0 * touch.gap.abs() + 8.0 * self.floor {
+                continue;
+            }
+            if touch.gap.abs() > 2.0 * self.floor || touch.slope > 1e-6 || touch.rank() > 0 {
+                return None;
+            }
+            seen += 1;
+        }
+        Some(seen)
+    }
+}
+
+/// Whether both parts lie between two parallel planes at most `thickness` apart: what they do there rounding hides.
+fn is_slab(n: Vector, a: &Part, b: &Part, thickness: f64) -> bool {
+    if n == [0.0; 3] {
+        return false;
+    }
+    let mut range = (f64::INFINITY, f64::NEG_INFINITY);
+    for &p in a.hull.iter().chain(&b.hull) {
+        let x = dot(n, sub(p, a.at));
+        range = (range.0.min(x), range.1.max(x));
+        if range.1 - range.0 > thickness {
+            return false;
+        }
+    }
+    true
+}
+
+fn size(part: &Part) -> f64 {
+    norm(part.slope[0]) + norm(part.slope[1])
+}
+
+fn parallel(a: &Part, b: &Part) -> bool {
+    norm(cross(a.normal, b.normal)) < 0.2
+}
