@@ -52,6 +52,13 @@ struct Step {
     jump: bool,
 }
 
+/// A solution: unit parameters and place.
+#[derive(Clone, Copy)]
+struct Solution {
+    z: [f64; 4],
+    place: Place,
+}
+
 /// Arcs by the patches that they belong to.
 pub struct Joiner<'a, 'b> {
     search: &'a Search<'b>,
@@ -112,8 +119,12 @@ impl<'a, 'b> Joiner<'a, 'b> {
     }
 
     fn place(&self, arc: &Arc, x: f64) -> Place {
-        let z = arc.solve(&self.search.a, &self.search.b, x);
-        Place { x: meeting(&self.search.a, &self.search.b, arc.patches, z), at: self.global(arc.patches, z) }
+        self.solution(arc, arc.solve(&self.search.a, &self.search.b, x)).place
+    }
+
+    fn solution(&self, arc: &Arc, z: [f64; 4]) -> Solution {
+        let place = Place { x: meeting(&self.search.a, arc.patches, z), at: self.global(arc.patches, z) };
+        Solution { z, place }
     }
 
     fn global(&self, patches: [u32; 2], z: [f64; 4]) -> [f64; 4] {
@@ -259,33 +270,37 @@ impl<'a, 'b> Joiner<'a, 'b> {
 
     fn places(&self, steps: &[Step]) -> Vec<Place> {
         let mut places: Vec<Place> = Vec::new();
+        let (a, b) = (&self.search.a, &self.search.b);
         for (n, step) in steps.iter().enumerate() {
             let arc = &self.search.found[step.arc].arc;
-            let first = self.place(arc, step.from);
+            let first = self.solution(arc, arc.solve(a, b, step.from));
             if n == 0 || step.jump {
-                places.push(first);
+                places.push(first.place);
             }
             if (step.to - step.from).abs() < 1e-12 {
                 continue;
             }
-            let last = self.place(arc, step.to);
+            let last = self.solution(arc, arc.solve(a, b, step.to));
             self.fill(arc, (step.from, first), (step.to, last), 0, &mut places);
-            places.push(last);
+            places.push(last.place);
         }
         places
     }
 
     /// Places between two of an arc, until chords are near enough.
-    fn fill(&self, arc: &Arc, from: (f64, Place), to: (f64, Place), depth: u32, out: &mut Vec<Place>) {
+    fn fill(&self, arc: &Arc, from: (f64, Solution), to: (f64, Solution), depth: u32, out: &mut Vec<Place>) {
         let at = |share: f64| from.0 + share * (to.0 - from.0);
-        let middle = self.place(arc, at(0.5));
-        let near = |place: &Place| distance_to_chord(place.x, from.1.x, to.1.x) <= 0.5 * self.chord;
-        let quarters = || [0.25, 0.75].iter().all(|&s| near(&self.place(arc, at(s))));
-        if depth >= MOST_HALVINGS || (near(&middle) && quarters()) {
+        let solve = |share: f64| {
+            let z = arc.between(&self.search.a, &self.search.b, at(share), [from.1.z, to.1.z]);
+            self.solution(arc, z)
+        };
+        let near = |found: &Solution| distance_to_chord(found.place.x, from.1.place.x, to.1.place.x) <= 0.5 * self.chord;
+        let middle = solve(0.5);
+        if depth >= MOST_HALVINGS || (near(&middle) && [0.25, 0.75].iter().all(|&s| near(&solve(s)))) {
             return;
         }
         self.fill(arc, from, (at(0.5), middle), depth + 1, out);
-        out.push(middle);
+        out.push(middle.place);
         self.fill(arc, (at(0.5), middle), to, depth + 1, out);
     }
 }

@@ -16,7 +16,7 @@
 //! for selective subdivision*, 1985 (no loop where the normals keep apart).
 
 use super::pieces::{Part, Pieces, Slopes};
-use crate::bounds::{HALF_ULP, Vector, add, cross, dot, norm, scaled, sub};
+use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, scaled, sub};
 
 /// How far beyond the part an arc is followed, in half widths.
 const OVERLAP: f64 = 1.25;
@@ -223,20 +223,35 @@ impl Arc {
 
     /// The solution at `x`, in the unit parameters of the patches: Newton with `k` held.
     pub fn solve(&self, a: &Pieces, b: &Pieces, x: f64) -> [f64; 4] {
-        let mut y = self.predicted(x);
-        let first = y;
+        self.solve_from(a, b, x, self.predicted(x))
+    }
+
+    /// The same between two known solutions.
+    pub fn between(&self, a: &Pieces, b: &Pieces, x: f64, ends: [[f64; 4]; 2]) -> [f64; 4] {
+        let of = |z: [f64; 4], c: usize| (z[c] - self.middle[c]) / self.half[c];
+        let (first, last) = (of(ends[0], self.k), of(ends[1], self.k));
+        let share = if first == last { 0.0 } else { (x - first) / (last - first) };
+        let y = others(self.k).map(|c| (1.0 - share) * of(ends[0], c) + share * of(ends[1], c));
+        self.solve_from(a, b, x, y)
+    }
+
+    fn solve_from(&self, a: &Pieces, b: &Pieces, x: f64, mut y: [f64; 3]) -> [f64; 4] {
+        let first = self.predicted(x);
         let o = others(self.k);
         for _ in 0..12 {
             let z = self.unit(x, y);
             let (f, columns) = system(a, b, self.patches, z);
             let Some(rows) = inverse(o.map(|c| scaled(columns[c], self.half[c]))) else { break };
             let step = rows.map(|r| dot(r, f));
+            let mut moved = 0.0f64;
             for i in 0..3 {
                 // The solution is known to lie in this interval.
                 let limit = self.radius + 1e-9;
                 y[i] = (y[i] - step[i]).clamp(first[i] - limit, first[i] + limit);
+                moved = moved.max(step[i].abs());
             }
-            if step.iter().all(|s| s.abs() < 1e-14) {
+            // Quadratic from here: the next step would be below the last digit.
+            if moved < 1e-8 {
                 break;
             }
         }
@@ -369,8 +384,7 @@ pub fn system(a: &Pieces, b: &Pieces, patches: [u32; 2], z: [f64; 4]) -> (Vector
     (sub(p, q), [pu, pv, scaled(qs, -1.0), scaled(qt, -1.0)])
 }
 
-/// Middle of the two points of a solution.
-pub fn meeting(a: &Pieces, b: &Pieces, patches: [u32; 2], z: [f64; 4]) -> Vector {
-    let p = a.jet(patches[0], [z[0], z[1]])[0];
-    scaled(add(p, b.jet(patches[1], [z[2], z[3]])[0]), 0.5)
+/// The point of A of a solution.
+pub fn meeting(a: &Pieces, patches: [u32; 2], z: [f64; 4]) -> Vector {
+    a.jet(patches[0], [z[0], z[1]])[0]
 }

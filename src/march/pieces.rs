@@ -376,37 +376,49 @@ fn local_poles(surface: &Surface, spans: [usize; 2], mu: &[f64], mv: &[f64]) -> 
 
 /// Homogeneous point and derivatives by the unit parameters.
 fn homogeneous(poles: &[Pole], degree: [usize; 2], at: [f64; 2]) -> [Pole; 3] {
-    let width = degree[1] + 1;
-    let mut rows = [[0.0; 4]; 32];
-    let mut slopes = [[0.0; 4]; 32];
-    for i in 0..=degree[0] {
-        let [x, dx] = casteljau(&poles[i * width..(i + 1) * width], at[1]);
-        rows[i] = x;
-        slopes[i] = dx;
-    }
-    let [x, du] = casteljau(&rows[..=degree[0]], at[0]);
-    let [dv, _] = casteljau(&slopes[..=degree[0]], at[0]);
-    [x, du, dv]
+    if degree[0].max(degree[1]) < 4 { summed::<4>(poles, degree, at) } else { summed::<32>(poles, degree, at) }
 }
 
-/// Value and derivative of one row of poles.
-fn casteljau(poles: &[Pole], s: f64) -> [Pole; 2] {
-    let n = poles.len() - 1;
-    let mut work = [[0.0; 4]; 32];
-    work[..=n].copy_from_slice(poles);
-    if n == 0 {
-        return [work[0], [0.0; 4]];
-    }
-    for level in 1..n {
-        for k in 0..=n - level {
-            for c in 0..4 {
-                work[k][c] = (1.0 - s) * work[k][c] + s * work[k + 1][c];
+fn summed<const LEN: usize>(poles: &[Pole], degree: [usize; 2], at: [f64; 2]) -> [Pole; 3] {
+    let [b, db] = bernstein::<LEN>(degree[0], at[0]);
+    let [c, dc] = bernstein::<LEN>(degree[1], at[1]);
+    let mut sum = [[0.0; 4]; 3];
+    for (i, row) in poles.chunks_exact(degree[1] + 1).enumerate() {
+        let (mut x, mut dx) = ([0.0; 4], [0.0; 4]);
+        for (j, pole) in row.iter().enumerate() {
+            for k in 0..4 {
+                x[k] += c[j] * pole[k];
+                dx[k] += dc[j] * pole[k];
             }
         }
+        for k in 0..4 {
+            sum[0][k] += b[i] * x[k];
+            sum[1][k] += db[i] * x[k];
+            sum[2][k] += b[i] * dx[k];
+        }
     }
-    let (a, b) = (work[0], work[1]);
-    let value = [0, 1, 2, 3].map(|c| (1.0 - s) * a[c] + s * b[c]);
-    [value, [0, 1, 2, 3].map(|c| n as f64 * (b[c] - a[c]))]
+    sum
+}
+
+/// Bernstein basis of degree `n` and its derivative.
+fn bernstein<const LEN: usize>(n: usize, s: f64) -> [[f64; LEN]; 2] {
+    let (mut values, mut slopes) = ([0.0; LEN], [0.0; LEN]);
+    values[0] = 1.0;
+    for level in 1..=n {
+        if level == n {
+            slopes[0] = -(n as f64) * values[0];
+            for i in 1..n {
+                slopes[i] = n as f64 * (values[i - 1] - values[i]);
+            }
+            slopes[n] = n as f64 * values[n - 1];
+        }
+        values[level] = s * values[level - 1];
+        for i in (1..level).rev() {
+            values[i] = (1.0 - s) * values[i] + s * values[i - 1];
+        }
+        values[0] *= 1.0 - s;
+    }
+    [values, slopes]
 }
 
 /// Splits a net at the middle of a direction.

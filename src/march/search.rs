@@ -242,11 +242,14 @@ impl<'a> Search<'a> {
         if self.coincide(a, b) {
             return Some(Open::Area);
         }
+        if level < LEVEL_OF_CURVES || !level.is_multiple_of(4) {
+            return None;
+        }
         let (sa, sb) = (self.surfaces[0], self.surfaces[1]);
         let start = self.middle(a, b);
         let reach = size(a).max(size(b));
         let touch = settle(sa, sb, start, reach)?;
-        if level < LEVEL_OF_CURVES || touch.gap.abs() > self.floor || touch.slope > 1e-7 || touch.rank() != 1 {
+        if touch.gap.abs() > self.floor || touch.slope > 1e-7 || touch.rank() != 1 {
             return None;
         }
         // The same must hold a little farther along the curve, on both sides.
@@ -277,7 +280,8 @@ impl<'a> Search<'a> {
         let (surface, other) = (self.surfaces[own], self.surfaces[other]);
         let pieces = if own == 0 { &self.a } else { &self.b };
         let mut seen = 0;
-        for n in 0..9 {
+        // The middle first: most pairs are told apart there.
+        for n in [4, 0, 2, 6, 8, 1, 3, 5, 7] {
             let share = [0.5 * (n / 3) as f64, 0.5 * (n % 3) as f64];
             let at = [0, 1].map(|k| part.low[k] + share[k] * (part.high[k] - part.low[k]));
             let at = pieces.global(part.patch, at);
