@@ -53,4 +53,10 @@ pub mod batch;
 
 pub mod weights;
 
+pub mod elementary;
+
+pub mod pcurve;
+
+pub mod trim;
+
 mod ffi;
