@@ -210,7 +210,7 @@ proptest! {
 
     #[test]
     fn compatible_curves_share_degree_and_knots_and_stay(all in prop::collection::vec(curves(), 1..4)) {
-        let allowed = all.iter().map(|curve| moved_on_curve(curve)).fold(EXACT, f64::max);
+        let allowed = all.iter().map(moved_on_curve).fold(EXACT, f64::max);
         let (start, end) = all[0].domain();
         prop_assume!(all.iter().all(|curve| curve.clamp().unwrap().with_domain(start, end).is_ok()));
         let shared = compatible_curves(&all).unwrap();

@@ -30,7 +30,7 @@ pub fn compatible_curves(curves: &[Curve]) -> Result<Vec<Curve>, Error> {
     let degree = curves.iter().map(Curve::degree).max().unwrap_or(1);
     let (start, end) = first.domain();
     let raise =
-        |curve: &Curve| curve.clamp()?.elevate(degree - curve.degree())?.with_domain(start, end);
+        |curve: &Curve| curve.clamp()?.with_domain(start, end)?.elevate(degree - curve.degree());
     let raised: Vec<Curve> = curves.iter().map(raise).collect::<Result<_, _>>()?;
     let union = Union::new(raised.iter().map(Curve::knots));
     let weighted = raised.iter().any(|curve| curve.weights().is_some());
