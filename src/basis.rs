@@ -53,7 +53,6 @@ fn grow<const DEGREE: usize>(around: &[f64], u: f64, out: &mut [f64]) {
     }
 }
 
-
 /// Writes the basis functions and their derivatives to order `count`, at `u`, to `out`.
 ///
 /// The derivative of order `k` of function `j` goes to `out[k * (degree + 1) + j]`; row 0 has the
