@@ -53,4 +53,12 @@ pub mod batch;
 
 pub mod weights;
 
+pub mod fit;
+
+pub mod elementary;
+
+pub mod pcurve;
+
+pub mod trim;
+
 mod ffi;
