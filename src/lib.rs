@@ -53,6 +53,16 @@ pub mod batch;
 
 pub mod weights;
 
+pub mod operate;
+
+pub mod fit;
+
+pub mod elementary;
+
+pub mod pcurve;
+
+pub mod trim;
+
 pub mod march;
 
 mod ffi;

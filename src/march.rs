@@ -29,6 +29,12 @@ mod tangent;
 
 mod cluster;
 
+pub mod correct;
+
+pub mod follow;
+
+pub mod triangles;
+
 use crate::bounds::{HALF_ULP, Vector, add, norm, scaled, sub};
 use crate::closest::{QueryOptions, Workspace};
 use crate::error::Error;
