@@ -370,6 +370,54 @@ typedef enum fpt_weights_unit {
 } fpt_weights_unit;
 
 /**
+ * What an end of a branch is, for fpt_intersection_branch.end_kind.
+ */
+typedef enum fpt_branch_end {
+    /**
+     * The branch is closed.
+     */
+    FPT_BRANCH_END_CLOSED = 0,
+    /**
+     * A border: end_index is the side, 0 to 7 for u low, u high, v low, v high of A, then of B.
+     */
+    FPT_BRANCH_END_BORDER = 1,
+    /**
+     * A contact (a branch point, a cusp, a collapsed edge): end_index is its number.
+     */
+    FPT_BRANCH_END_CONTACT = 2,
+    /**
+     * An undecided box is there.
+     */
+    FPT_BRANCH_END_UNDECIDED = 3,
+} fpt_branch_end;
+
+/**
+ * What a contact is, for fpt_intersection_contact.kind.
+ */
+typedef enum fpt_contact_kind {
+    /**
+     * The surfaces touch from one side.
+     */
+    FPT_CONTACT_TOUCHING = 0,
+    /**
+     * Two curves cross.
+     */
+    FPT_CONTACT_CROSSING = 1,
+    /**
+     * The surfaces agree beyond the second order, or have no tangent plane.
+     */
+    FPT_CONTACT_DEGENERATE = 2,
+    /**
+     * A border of one surface just meets the other.
+     */
+    FPT_CONTACT_BORDER = 3,
+    /**
+     * A collapsed edge of one surface lies on the other.
+     */
+    FPT_CONTACT_TIP = 4,
+} fpt_contact_kind;
+
+/**
  * A curve. Immutable: any number of threads may use one at a time. The search index is built on first
  * use, by one thread while the others wait. Made by fpt_curve_new or fpt_curve_from_callback, owned by the
  * caller, released by fpt_curve_free. A curve from a callback has no degree, knots, poles and weights:
@@ -397,6 +445,12 @@ typedef struct fpt_scene fpt_scene;
  * weights: functions that need them return FPT_UNSUPPORTED.
  */
 typedef struct fpt_surface fpt_surface;
+
+/**
+ * All that two surfaces have in common. Immutable: any number of threads may read one at a time. Owned by the caller,
+ * released by fpt_surface_intersection_free; it does not refer to the surfaces that it came from.
+ */
+typedef struct fpt_surface_intersection fpt_surface_intersection;
 
 /**
  * What a method found: weights, and for each pole what was wished and what was achieved. Immutable, owned by the caller, released
@@ -1021,6 +1075,147 @@ typedef struct fpt_weights_conic_shape {
      */
     double eccentricity;
 } fpt_weights_conic_shape;
+
+/**
+ * What an intersection asks for. Fill it with fpt_intersect_surfaces_options_init, then change what matters. All zero after
+ * struct_size is the default of everything. Grows at the end only.
+ */
+typedef struct fpt_intersect_surfaces_options {
+    /**
+     * sizeof(fpt_intersect_surfaces_options), set by fpt_intersect_surfaces_options_init.
+     */
+    size_t struct_size;
+    /**
+     * Length, finite, >= 0. How far a branch may be from the chord between two of its points. 0: 1e-3 x the size of
+     * the smaller surface (the power of two above the diagonal of its box).
+     */
+    double chord;
+    /**
+     * Most pairs of parts; 0: the default, 2,000,000.
+     */
+    uint64_t budget;
+    /**
+     * Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED. NULL: never.
+     */
+    int (*should_stop)(void *user);
+    /**
+     * Told on the calling thread now and then: pairs judged, and pairs judged or waiting. NULL: nobody.
+     */
+    void (*progress)(void *user, size_t done, size_t total);
+    /**
+     * Handed to the callbacks as it is.
+     */
+    void *user;
+} fpt_intersect_surfaces_options;
+
+/**
+ * Counts and verdicts of an intersection.
+ */
+typedef struct fpt_intersection_summary {
+    /**
+     * Curves.
+     */
+    size_t branch_count;
+    /**
+     * Points.
+     */
+    size_t contact_count;
+    /**
+     * Boxes in which the surfaces coincide.
+     */
+    size_t overlap_count;
+    /**
+     * Boxes about which nothing is known.
+     */
+    size_t undecided_count;
+    /**
+     * Pairs of parts judged.
+     */
+    uint64_t pairs;
+    /**
+     * 1: nothing is missing and every branch is transversal, with proof. 0 with contacts, overlaps, tangential branches or
+     * undecided boxes: what touches cannot be told from a gap below the rounding.
+     */
+    uint32_t is_proven;
+    /**
+     * 1: the budget ran out.
+     */
+    uint32_t is_exhausted;
+} fpt_intersection_summary;
+
+/**
+ * A branch without its points.
+ */
+typedef struct fpt_intersection_branch {
+    /**
+     * Number of points.
+     */
+    size_t point_count;
+    /**
+     * Greatest distance between the two surface points of one of its points.
+     */
+    double gap;
+    /**
+     * 1: the surfaces touch along it.
+     */
+    uint32_t is_tangential;
+    /**
+     * 1: it is a loop; its first point comes again as the last.
+     */
+    uint32_t is_closed;
+    /**
+     * Values of fpt_branch_end, of its beginning and its end.
+     */
+    uint32_t end_kind[2];
+    /**
+     * What they refer to.
+     */
+    uint32_t end_index[2];
+} fpt_intersection_branch;
+
+/**
+ * A point of an intersection: 56 bytes, frozen.
+ */
+typedef struct fpt_intersection_point {
+    /**
+     * Middle of the two surface points.
+     */
+    double point[3];
+    /**
+     * Parameters of A.
+     */
+    double uv[2];
+    /**
+     * Parameters of B.
+     */
+    double st[2];
+} fpt_intersection_point;
+
+/**
+ * An isolated contact.
+ */
+typedef struct fpt_intersection_contact {
+    /**
+     * Where.
+     */
+    struct fpt_intersection_point place;
+    /**
+     * Distance between the surfaces there.
+     */
+    double gap;
+    /**
+     * Length: what the surfaces do within it was not told apart further.
+     */
+    double radius;
+    /**
+     * A value of fpt_contact_kind.
+     */
+    uint32_t kind;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} fpt_intersection_contact;
 
 #ifdef __cplusplus
 extern "C" {
@@ -2598,6 +2793,129 @@ fpt_status fpt_weights_positive_form(size_t degree,
                                      const double *knots,
                                      const double *poles,
                                      struct fpt_curve **out);
+
+/**
+ * Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.
+ * Does nothing when `options` is NULL or struct_size is smaller than a size_t.
+ * @since 0.1
+ */
+void fpt_intersect_surfaces_options_init(struct fpt_intersect_surfaces_options *options,
+                                         size_t struct_size);
+
+/**
+ * All branches and points that two surfaces have in common, with proof that none is missing, or with what could not be decided.
+ *
+ * Pairs of Bezier pieces are halved until they provably hold nothing or one transversal arc; loops cannot hide. Where the surfaces touch
+ * to the last digits, the contact is classified and measured, not proven.
+ *
+ * @param a, b     surfaces of knots and poles; FPT_UNSUPPORTED for one given by a function, or that is a point
+ * @param options  NULL: the defaults
+ * @param out      the result; release it with fpt_surface_intersection_free
+ * @return FPT_BUDGET_EXHAUSTED with a result that misses what lies in its undecided boxes
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_intersect_surfaces(const struct fpt_surface *a,
+                                  const struct fpt_surface *b,
+                                  const struct fpt_intersect_surfaces_options *options,
+                                  struct fpt_surface_intersection **out);
+
+/**
+ * Counts and verdicts.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_intersection_summary(const struct fpt_surface_intersection *intersection,
+                                            struct fpt_intersection_summary *out);
+
+/**
+ * A branch without its points.
+ *
+ * @param index  below branch_count, else FPT_INVALID_ARGUMENT
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_intersection_branch(const struct fpt_surface_intersection *intersection,
+                                           size_t index,
+                                           struct fpt_intersection_branch *out);
+
+/**
+ * The points of a branch, in order. At a seam of a closed surface the same point comes twice, with the parameters of either side.
+ *
+ * @param index     below branch_count, else FPT_INVALID_ARGUMENT
+ * @param capacity  room in `out`, at least the branch's point_count, else FPT_INVALID_ARGUMENT
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_intersection_points(const struct fpt_surface_intersection *intersection,
+                                           size_t index,
+                                           size_t capacity,
+                                           struct fpt_intersection_point *out);
+
+/**
+ * A contact.
+ *
+ * @param index  below contact_count, else FPT_INVALID_ARGUMENT
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_intersection_contact(const struct fpt_surface_intersection *intersection,
+                                            size_t index,
+                                            struct fpt_intersection_contact *out);
+
+/**
+ * A box in which the surfaces coincide to the last digits.
+ *
+ * @param index      below overlap_count, else FPT_INVALID_ARGUMENT
+ * @param out_range  8 numbers: ends of u, v of A, of u, v of B
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_intersection_overlap(const struct fpt_surface_intersection *intersection,
+                                            size_t index,
+                                            double *out_range);
+
+/**
+ * A box about which nothing is known.
+ *
+ * @param index      below undecided_count, else FPT_INVALID_ARGUMENT
+ * @param out_range  8 numbers: ends of u, v of A, of u, v of B
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_intersection_undecided(const struct fpt_surface_intersection *intersection,
+                                              size_t index,
+                                              double *out_range);
+
+/**
+ * A branch as cubic B-splines in space and in both domains (z = 0), with the same knots. A branch over a seam is cut there.
+ *
+ * @param a, b        the surfaces that the intersection was made of
+ * @param index       below branch_count, else FPT_INVALID_ARGUMENT
+ * @param tolerance   length, > 0: what the fit aims at
+ * @param part        which part between two seams; beyond the count of parts FPT_INVALID_ARGUMENT
+ * @param out_count   the number of parts
+ * @param out_curves  3 handles: in space, in A's domain, in B's domain; release each with fpt_curve_free
+ * @param out_error   greatest distance that was measured, 16 places a span: of the curve from either surface (certified), and from
+ *                    the surface points at its parameters
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_intersection_curves(const struct fpt_surface_intersection *intersection,
+                                           const struct fpt_surface *a,
+                                           const struct fpt_surface *b,
+                                           size_t index,
+                                           double tolerance,
+                                           size_t part,
+                                           size_t *out_count,
+                                           struct fpt_curve **out_curves,
+                                           double *out_error);
+
+/**
+ * Releases an intersection. NULL is fine. No other call may use the handle during or after this one.
+ * @since 0.1
+ */
+void fpt_surface_intersection_free(struct fpt_surface_intersection *intersection);
 
 #ifdef __cplusplus
 }  // extern "C"

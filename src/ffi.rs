@@ -43,6 +43,7 @@ mod weights_records;
 mod weights_report;
 mod weights;
 mod weights_edit;
+mod march;
 #[cfg(test)]
 mod tests;
 

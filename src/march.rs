@@ -35,6 +35,8 @@ pub mod follow;
 
 pub mod triangles;
 
+pub mod curves;
+
 use crate::bounds::{HALF_ULP, Vector, add, norm, scaled, sub};
 use crate::closest::{QueryOptions, Workspace};
 use crate::error::Error;
@@ -51,9 +53,8 @@ pub const DEFAULT_BUDGET: u64 = 2_000_000;
 /// What an intersection asks for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MarchOptions {
-    /// How far a point of a branch may be from either surface. 0: 1e-7 of the diagonal of the smaller surface.
-    pub tolerance: f64,
-    /// How far a branch may be from the chord between two points. 0: 1e-3 of the diagonal of the smaller surface.
+    /// How far a branch may be from the chord between two points, finite, >= 0. 0: 1e-3 of the size of the smaller surface (the power
+    /// of two above the diagonal of its box). Points themselves are as exact as the arithmetic: see [`Branch::gap`].
     pub chord: f64,
     /// Most pairs of parts; 0: [`DEFAULT_BUDGET`].
     pub budget: u64,
@@ -177,14 +178,29 @@ impl Frames {
             return Err(Error::Unsupported("surfaces: one of them is a point".into()));
         }
         let scale = 2f64.powi(-(sizes[smaller].log2().ceil() as i32));
-        let largest = boxes.iter().flat_map(|(l, h)| l.iter().chain(h)).fold(0.0f64, |m, x| m.max(x.abs()));
+        let largest =
+            boxes.iter().flat_map(|(l, h)| l.iter().chain(h)).fold(0.0f64, |m, x| m.max(x.abs()));
         let moved = |s: &Surface| {
-            let poles: Vec<Vector> = s.poles().iter().map(|&p| scaled(sub(p, origin), scale)).collect();
+            let poles: Vec<Vector> =
+                s.poles().iter().map(|&p| scaled(sub(p, origin), scale)).collect();
             let (ku, kv) = (s.knots_u(), s.knots_v());
             let counts = [ku.pole_count(), kv.pole_count()];
-            Surface::new(ku.values(), kv.values(), ku.degree(), kv.degree(), &poles, counts[0], counts[1], s.weights())
+            Surface::new(
+                ku.values(),
+                kv.values(),
+                ku.degree(),
+                kv.degree(),
+                &poles,
+                counts[0],
+                counts[1],
+                s.weights(),
+            )
         };
-        Ok(Self { surfaces: [moved(a)?, moved(b)?], scale, noise: 2.0 * HALF_ULP * largest * scale })
+        Ok(Self {
+            surfaces: [moved(a)?, moved(b)?],
+            scale,
+            noise: 2.0 * HALF_ULP * largest * scale,
+        })
     }
 }
 
@@ -199,10 +215,8 @@ pub fn intersect(
     options: &MarchOptions,
     poll: &mut dyn FnMut(u64, u64) -> bool,
 ) -> Result<Intersection, Error> {
-    for (name, x) in [("tolerance", options.tolerance), ("chord", options.chord)] {
-        if !x.is_finite() || x < 0.0 {
-            return Err(Error::InvalidArgument(format!("{name}: {x} is not a length")));
-        }
+    if !options.chord.is_finite() || options.chord < 0.0 {
+        return Err(Error::InvalidArgument(format!("chord: {} is not a length", options.chord)));
     }
     let frames = Frames::new(a.surface(), b.surface())?;
     let [sa, sb] = &frames.surfaces;
@@ -212,7 +226,8 @@ pub fn intersect(
     search.run(budget, poll)?;
     let (chains, points) = Joiner::new(&search, chord).chains();
     let ridges = ridges(&search, chord);
-    let mut made = Maker { a: a.surface(), b: b.surface(), search: &search, out: Intersection::default() };
+    let mut made =
+        Maker { a: a.surface(), b: b.surface(), search: &search, out: Intersection::default() };
     made.out.judged = search.judged;
     made.out.exhausted = search.open.iter().any(|pair| pair.why == Open::Budget);
     for &tip in &search.tips {
@@ -221,11 +236,19 @@ pub fn intersect(
     let groups = clusters(&search);
     match &groups {
         Some(groups) => made.classify(groups, &ridges),
-        None => made.out.undecided = search.open.iter().map(|pair| region(pair.low, pair.high)).collect(),
+        None => {
+            made.out.undecided =
+                search.open.iter().map(|pair| region(pair.low, pair.high)).collect()
+        }
     }
     for place in points {
         let place = made.point(&place);
-        made.out.contacts.push(Contact { place, kind: ContactKind::Border, gap: made.gap(&place), radius: 0.0 });
+        made.out.contacts.push(Contact {
+            place,
+            kind: ContactKind::Border,
+            gap: made.gap(&place),
+            radius: 0.0,
+        });
     }
     for chain in chains {
         made.push(chain.places, chain.stops, false);
@@ -235,8 +258,14 @@ pub fn intersect(
     }
     made.join_at_tips();
     let out = &mut made.out;
-    let transversal = out.branches.iter().all(|branch| !branch.is_tangential && !branch.ends.contains(&End::Undecided));
-    out.is_proven = transversal && out.contacts.is_empty() && out.overlaps.is_empty() && out.undecided.is_empty();
+    let transversal = out
+        .branches
+        .iter()
+        .all(|branch| !branch.is_tangential && !branch.ends.contains(&End::Undecided));
+    out.is_proven = transversal
+        && out.contacts.is_empty()
+        && out.overlaps.is_empty()
+        && out.undecided.is_empty();
     Ok(made.out)
 }
 
@@ -255,7 +284,11 @@ impl Maker<'_, '_> {
     fn point(&self, place: &Place) -> MarchPoint {
         let [u, v, s, t] = place.at;
         let (x, y) = (self.a.evaluate(u, v), self.b.evaluate(s, t));
-        MarchPoint { point: std::array::from_fn(|k| x[k] + 0.5 * (y[k] - x[k])), uv: [u, v], st: [s, t] }
+        MarchPoint {
+            point: std::array::from_fn(|k| x[k] + 0.5 * (y[k] - x[k])),
+            uv: [u, v],
+            st: [s, t],
+        }
     }
 
     fn gap(&self, point: &MarchPoint) -> f64 {
@@ -276,7 +309,13 @@ impl Maker<'_, '_> {
             let seen = if budget { None } else { see(self.search, group) };
             match seen {
                 Some(seen) if group.size <= 0.05 => {
-                    if ridges.iter().any(|ridge| is_near(seen.place.x, &ridge.places, group.size.max(16.0 * self.search.floor))) {
+                    if ridges.iter().any(|ridge| {
+                        is_near(
+                            seen.place.x,
+                            &ridge.places,
+                            group.size.max(16.0 * self.search.floor),
+                        )
+                    }) {
                         continue;
                     }
                     let place = self.point(&seen.place);
@@ -287,7 +326,9 @@ impl Maker<'_, '_> {
                     };
                     let radius = group.size / self.scale();
                     // At a seam the same point is seen from both sides.
-                    let same = |c: &&mut Contact| norm(sub(c.place.point, place.point)) <= 2.0 * (c.radius + radius);
+                    let same = |c: &&mut Contact| {
+                        norm(sub(c.place.point, place.point)) <= 2.0 * (c.radius + radius)
+                    };
                     if let Some(known) = self.out.contacts.iter_mut().find(same) {
                         known.radius = known.radius.max(radius);
                         continue;
@@ -312,7 +353,13 @@ impl Maker<'_, '_> {
         let [u0, u1, v0, v1] = own.domain();
         let at = [[u0, v0], [u1, v0], [u0, v0], [u0, v1]][side];
         let point = own.evaluate(at[0], at[1]);
-        let foot = surfaces[1 - whose].closest(point, None, &QueryOptions::default(), &mut Workspace::default(), None);
+        let foot = surfaces[1 - whose].closest(
+            point,
+            None,
+            &QueryOptions::default(),
+            &mut Workspace::default(),
+            None,
+        );
         let size = self.search.tip_size() / self.scale();
         if foot.lower_bound > 2.0 * size {
             return;
@@ -320,7 +367,8 @@ impl Maker<'_, '_> {
         let other = [foot.u, foot.v];
         let (uv, st) = if whose == 0 { (at, other) } else { (other, at) };
         let place = self.point(&Place { x: [0.0; 3], at: [uv[0], uv[1], st[0], st[1]] });
-        let known = self.out.contacts.iter().any(|c| norm(sub(c.place.point, place.point)) <= 2.0 * size);
+        let known =
+            self.out.contacts.iter().any(|c| norm(sub(c.place.point, place.point)) <= 2.0 * size);
         if !known {
             let gap = self.gap(&place);
             self.out.contacts.push(Contact { place, kind: ContactKind::Tip, gap, radius: size });
@@ -344,11 +392,19 @@ impl Maker<'_, '_> {
                 let (tip, beside) = if end == 0 { (0, 1) } else { (n - 1, n - 2) };
                 let near = points[beside];
                 let keep = |own: [f64; 2], near: [f64; 2], edges: [bool; 4]| {
-                    [if edges[2] || edges[3] { near[0] } else { own[0] }, if edges[0] || edges[1] { near[1] } else { own[1] }]
+                    [
+                        if edges[2] || edges[3] { near[0] } else { own[0] },
+                        if edges[0] || edges[1] { near[1] } else { own[1] },
+                    ]
                 };
                 let at_edge = |s: &Surface, at: [f64; 2]| {
                     let ([u0, u1, v0, v1], c) = (s.domain(), s.collapsed_edges());
-                    [c[0] && at[0] == u0, c[1] && at[0] == u1, c[2] && at[1] == v0, c[3] && at[1] == v1]
+                    [
+                        c[0] && at[0] == u0,
+                        c[1] && at[0] == u1,
+                        c[2] && at[1] == v0,
+                        c[3] && at[1] == v1,
+                    ]
                 };
                 let point = points[tip];
                 points[tip].uv = keep(point.uv, near.uv, at_edge(self.a, point.uv));
@@ -370,7 +426,8 @@ impl Maker<'_, '_> {
                     two.reverse();
                 }
                 one.extend(two);
-                let ends = [self.out.branches[i].ends[1 - first], self.out.branches[j].ends[1 - second]];
+                let ends =
+                    [self.out.branches[i].ends[1 - first], self.out.branches[j].ends[1 - second]];
                 let gap = self.out.branches[i].gap.max(self.out.branches[j].gap);
                 let branch = &mut self.out.branches[i];
                 (branch.points, branch.ends, branch.gap) = (one, ends, gap);
@@ -407,7 +464,11 @@ impl Maker<'_, '_> {
                     match self.contact_near(&at) {
                         Some(contact) => {
                             let place = self.out.contacts[contact].place;
-                            if k == 0 { points.insert(0, place) } else { points.push(place) }
+                            if k == 0 {
+                                points.insert(0, place)
+                            } else {
+                                points.push(place)
+                            }
                             End::Contact(contact)
                         }
                         None => End::Undecided,

@@ -359,6 +359,15 @@ impl Callbacks {
         Self { should_stop, progress: None, trace: None, user }
     }
 
+    /// What is told and asked by a call without a trace.
+    pub(super) fn telling(
+        should_stop: Option<ShouldStop>,
+        progress: Option<Progress>,
+        user: *mut c_void,
+    ) -> Self {
+        Self { should_stop, progress, trace: None, user }
+    }
+
     /// Tells how far the call is and asks whether to stop.
     pub(super) fn poll(&self, done: usize, total: usize) -> bool {
         self.report(done, total);

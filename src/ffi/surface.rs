@@ -82,6 +82,24 @@ pub(super) unsafe fn form<'a>(surface: *const fpt_surface) -> Result<&'a Surface
     Ok(&unsafe { shared("surface", surface) }?.form)
 }
 
+/// As [`indexed`], where a call takes several surfaces and an error must name one.
+///
+/// # Safety
+/// NULL or a live handle.
+pub(super) unsafe fn indexed_as<'a>(
+    name: &'static str,
+    surface: *const fpt_surface,
+) -> Result<&'a IndexedSurface, Failure> {
+    // SAFETY: the caller vouches for it.
+    match &unsafe { shared(name, surface) }?.form {
+        SurfaceForm::Spline(surface) => Ok(surface),
+        SurfaceForm::Function(_) => {
+            let text = format!("{name}: is given by a function; this call needs knots and poles");
+            Err(crate::error::Error::Unsupported(text).into())
+        }
+    }
+}
+
 /// The spline surface behind a handle; a function is refused as unsupported.
 ///
 /// # Safety

@@ -65,7 +65,12 @@ pub fn clusters(search: &Search) -> Option<Vec<Cluster>> {
         let r = root(&mut group, k);
         if place[r] == usize::MAX {
             place[r] = found.len();
-            found.push(Cluster { low: open[k].low, high: open[k].high, has: [false; 4], size: 0.0 });
+            found.push(Cluster {
+                low: open[k].low,
+                high: open[k].high,
+                has: [false; 4],
+                size: 0.0,
+            });
         }
         let cluster = &mut found[place[r]];
         for q in 0..4 {
@@ -84,8 +89,12 @@ pub fn clusters(search: &Search) -> Option<Vec<Cluster>> {
         let (low, high) = (cluster.low, cluster.high);
         let extent = |k: usize| {
             let at = |q: usize, high_end: bool| if high_end { high[q] } else { low[q] };
-            let corner = |n: usize| search.surfaces[k].evaluate(at(2 * k, n & 1 > 0), at(2 * k + 1, n & 2 > 0));
-            (0..4).flat_map(|i| (0..i).map(move |j| (i, j))).fold(0.0f64, |m, (i, j)| m.max(norm(sub(corner(i), corner(j)))))
+            let corner = |n: usize| {
+                search.surfaces[k].evaluate(at(2 * k, n & 1 > 0), at(2 * k + 1, n & 2 > 0))
+            };
+            (0..4)
+                .flat_map(|i| (0..i).map(move |j| (i, j)))
+                .fold(0.0f64, |m, (i, j)| m.max(norm(sub(corner(i), corner(j)))))
         };
         cluster.size = cluster.size.max(extent(0).min(extent(1)));
     }
@@ -104,7 +113,11 @@ pub fn see(search: &Search, cluster: &Cluster) -> Option<Seen> {
     if let Some(touch) = settle(a, b, middle, 4.0 * cluster.size.max(floor)) {
         let (place, gap) = place(touch.at);
         if gap <= floor {
-            let sign = if touch.rank() < 2 { 0 } else { (touch.curvature[0] * touch.curvature[1]).signum() as i8 };
+            let sign = if touch.rank() < 2 {
+                0
+            } else {
+                (touch.curvature[0] * touch.curvature[1]).signum() as i8
+            };
             return Some(Seen { place, gap, sign });
         }
     }
@@ -112,7 +125,9 @@ pub fn see(search: &Search, cluster: &Cluster) -> Option<Seen> {
     let mut best: Option<Seen> = None;
     for i in 0..3 {
         for j in 0..3 {
-            let pick = |q: usize, n: usize| cluster.low[q] + 0.5 * n as f64 * (cluster.high[q] - cluster.low[q]);
+            let pick = |q: usize, n: usize| {
+                cluster.low[q] + 0.5 * n as f64 * (cluster.high[q] - cluster.low[q])
+            };
             let mut uv = [pick(0, i), pick(1, j)];
             let mut st = [middle[2], middle[3]];
             for _ in 0..4 {

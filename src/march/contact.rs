@@ -109,7 +109,11 @@ pub fn look(a: &Surface, b: &Surface, uv: [f64; 2], near: [f64; 2]) -> Option<(T
     let theirs = |x: [f64; 2], y: [f64; 2]| {
         form[0] * x[0] * y[0] + form[1] * (x[0] * y[1] + x[1] * y[0]) + form[2] * x[1] * y[1]
     };
-    let h = [dot(n, p[3]) - theirs(c[0], c[0]), dot(n, p[4]) - theirs(c[0], c[1]), dot(n, p[5]) - theirs(c[1], c[1])];
+    let h = [
+        dot(n, p[3]) - theirs(c[0], c[0]),
+        dot(n, p[4]) - theirs(c[0], c[1]),
+        dot(n, p[5]) - theirs(c[1], c[1]),
+    ];
     // An orthonormal frame of A's tangent plane: columns of parameters per unit of length.
     let (e, f, g) = (dot(p[1], p[1]), dot(p[1], p[2]), dot(p[2], p[2]));
     let det = e * g - f * f;
@@ -118,14 +122,22 @@ pub fn look(a: &Surface, b: &Surface, uv: [f64; 2], near: [f64; 2]) -> Option<(T
     }
     let first = [1.0 / e.sqrt(), 0.0];
     let second = [-f / (e * det).sqrt(), e / (e * det).sqrt()];
-    let on = |m: &[f64; 3], x: [f64; 2], y: [f64; 2]| m[0] * x[0] * y[0] + m[1] * (x[0] * y[1] + x[1] * y[0]) + m[2] * x[1] * y[1];
+    let on = |m: &[f64; 3], x: [f64; 2], y: [f64; 2]| {
+        m[0] * x[0] * y[0] + m[1] * (x[0] * y[1] + x[1] * y[0]) + m[2] * x[1] * y[1]
+    };
     let [xx, xy, yy] = [on(&h, first, first), on(&h, first, second), on(&h, second, second)];
     let ours = [dot(n, p[3]), dot(n, p[4]), dot(n, p[5])];
-    let sizes = |m: &[f64; 3]| on(m, first, first).abs() + on(m, second, second).abs() + on(m, first, second).abs();
-    let greatest = sizes(&ours).max(sizes(&[theirs(c[0], c[0]), theirs(c[0], c[1]), theirs(c[1], c[1])]));
+    let sizes = |m: &[f64; 3]| {
+        on(m, first, first).abs() + on(m, second, second).abs() + on(m, first, second).abs()
+    };
+    let greatest =
+        sizes(&ours).max(sizes(&[theirs(c[0], c[0]), theirs(c[0], c[1]), theirs(c[1], c[1])]));
     let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
     let (sin, cos) = angle.sin_cos();
-    let values = [xx * cos * cos + 2.0 * xy * sin * cos + yy * sin * sin, xx * sin * sin - 2.0 * xy * sin * cos + yy * cos * cos];
+    let values = [
+        xx * cos * cos + 2.0 * xy * sin * cos + yy * sin * sin,
+        xx * sin * sin - 2.0 * xy * sin * cos + yy * cos * cos,
+    ];
     let mix = |x: f64, y: f64| [x * first[0] + y * second[0], x * first[1] + y * second[1]];
     let mut pairs = [(values[0], mix(cos, sin)), (values[1], mix(-sin, cos))];
     if pairs[1].0.abs() > pairs[0].0.abs() {
@@ -135,7 +147,11 @@ pub fn look(a: &Surface, b: &Surface, uv: [f64; 2], near: [f64; 2]) -> Option<(T
     let touch = Touch {
         at: [uv[0], uv[1], st[0], st[1]],
         gap: dot(n, sub(p[0], q[0])),
-        slope: norm([gradient[0] * first[0] + gradient[1] * first[1], gradient[0] * second[0] + gradient[1] * second[1], 0.0]),
+        slope: norm([
+            gradient[0] * first[0] + gradient[1] * first[1],
+            gradient[0] * second[0] + gradient[1] * second[1],
+            0.0,
+        ]),
         curvature: pairs.map(|pair| pair.0),
         greatest,
         direction: step.map(|x| add(scaled(p[1], x[0]), scaled(p[2], x[1]))),

@@ -59,7 +59,8 @@ pub fn correct(
     tolerance: f64,
     mut trace: Option<Trace>,
 ) -> Option<Corrected> {
-    let ([u, v], [s, t]) = (into_domain(a, [start[0], start[1]]), into_domain(b, [start[2], start[3]]));
+    let ([u, v], [s, t]) =
+        (into_domain(a, [start[0], start[1]]), into_domain(b, [start[2], start[3]]));
     let mut at = [u, v, s, t];
     let mut point = scaled(add(a.evaluate(u, v), b.evaluate(s, t)), 0.5);
     let mut last = f64::INFINITY;
@@ -104,7 +105,11 @@ fn maf_step(a: &Surface, b: &Surface, at: [f64; 4], point: &mut Vector) -> [f64;
 }
 
 /// A point on two planes.
-fn on_both_planes((x, n): (Vector, Vector), (y, m): (Vector, Vector), along: Vector) -> Option<Vector> {
+fn on_both_planes(
+    (x, n): (Vector, Vector),
+    (y, m): (Vector, Vector),
+    along: Vector,
+) -> Option<Vector> {
     let middle = scaled(add(x, y), 0.5);
     // Rows n, m, along: the inverse of the matrix with these columns, transposed, is applied.
     let rows = inverse([n, m, along])?;

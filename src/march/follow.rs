@@ -50,7 +50,14 @@ fn direction(a: &Surface, b: &Surface, at: [f64; 4]) -> Option<(Vector, [f64; 4]
 }
 
 /// Walks from a point of the intersection near `start` until both ends are known. `first` is the first step, `chord` the tolerance.
-pub fn follow(a: &Surface, b: &Surface, start: [f64; 4], corrector: Corrector, first: f64, chord: f64) -> Option<Walk> {
+pub fn follow(
+    a: &Surface,
+    b: &Surface,
+    start: [f64; 4],
+    corrector: Corrector,
+    first: f64,
+    chord: f64,
+) -> Option<Walk> {
     let tolerance = 1e-2 * chord;
     let begin = correct(a, b, start, corrector, tolerance, None)?.at;
     let mut ahead = vec![begin];
@@ -87,8 +94,14 @@ fn one_way(
         }
         let wish = [0, 1, 2, 3].map(|k| at[k] + sign * h * step[k]);
         // A border on the way: its parameter is held there, the other three are solved for.
-        let out_of = |k: usize| (wish[k] < ends[2 * k]).then_some(ends[2 * k]).or((wish[k] > ends[2 * k + 1]).then_some(ends[2 * k + 1]));
-        let landing = (0..4).filter_map(|k| out_of(k).map(|end| (k, end, ((end - at[k]) / (wish[k] - at[k])).abs())));
+        let out_of = |k: usize| {
+            (wish[k] < ends[2 * k])
+                .then_some(ends[2 * k])
+                .or((wish[k] > ends[2 * k + 1]).then_some(ends[2 * k + 1]))
+        };
+        let landing = (0..4).filter_map(|k| {
+            out_of(k).map(|end| (k, end, ((end - at[k]) / (wish[k] - at[k])).abs()))
+        });
         let landing = landing.min_by(|x, y| x.2.total_cmp(&y.2));
         let (start, method) = match landing {
             Some((k, end, share)) => {
@@ -119,7 +132,8 @@ fn one_way(
             h *= 0.5;
             continue;
         }
-        let passes = distance_to_chord(origin, here, there) <= 2.0 * chord && dot(sub(origin, here), sub(there, here)) > 0.0;
+        let passes = distance_to_chord(origin, here, there) <= 2.0 * chord
+            && dot(sub(origin, here), sub(there, here)) > 0.0;
         if out.len() > 2 && passes {
             out.push(begin);
             return WalkEnd::Closed;

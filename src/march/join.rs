@@ -123,12 +123,16 @@ impl<'a, 'b> Joiner<'a, 'b> {
     }
 
     fn solution(&self, arc: &Arc, z: [f64; 4]) -> Solution {
-        let place = Place { x: meeting(&self.search.a, arc.patches, z), at: self.global(arc.patches, z) };
+        let place =
+            Place { x: meeting(&self.search.a, arc.patches, z), at: self.global(arc.patches, z) };
         Solution { z, place }
     }
 
     fn global(&self, patches: [u32; 2], z: [f64; 4]) -> [f64; 4] {
-        let ([u, v], [s, t]) = (self.search.a.global(patches[0], [z[0], z[1]]), self.search.b.global(patches[1], [z[2], z[3]]));
+        let ([u, v], [s, t]) = (
+            self.search.a.global(patches[0], [z[0], z[1]]),
+            self.search.b.global(patches[1], [z[2], z[3]]),
+        );
         let all = [u, v, s, t];
         [0, 1, 2, 3].map(|q| all[q].clamp(self.domain[2 * q], self.domain[2 * q + 1]))
     }
@@ -157,7 +161,9 @@ impl<'a, 'b> Joiner<'a, 'b> {
         if self.on(place.at).iter().any(|&(j, _)| j != k && self.used[j]) {
             return true;
         }
-        self.mirrored(place.at).iter().any(|&at| self.on(at).iter().any(|&(j, _)| j != k && self.used[j]))
+        self.mirrored(place.at)
+            .iter()
+            .any(|&at| self.on(at).iter().any(|&(j, _)| j != k && self.used[j]))
     }
 
     /// The same place on the other side of the seams that it lies on.
@@ -166,7 +172,11 @@ impl<'a, 'b> Joiner<'a, 'b> {
         for q in (0..4).filter(|&q| self.closed[q]) {
             let [low, high] = [self.domain[2 * q], self.domain[2 * q + 1]];
             let near = 1e-9 * (high - low);
-            let other = if at[q] - low <= near { Some(high) } else { (high - at[q] <= near).then_some(low) };
+            let other = if at[q] - low <= near {
+                Some(high)
+            } else {
+                (high - at[q] <= near).then_some(low)
+            };
             if let Some(other) = other {
                 for k in 0..all.len() {
                     let mut moved = all[k];
@@ -213,7 +223,9 @@ impl<'a, 'b> Joiner<'a, 'b> {
             let to = found.arc.x[usize::from(high)];
             if !steps.is_empty() {
                 // Has the walk come back to where it began?
-                if let Some(&(_, home)) = self.on(origin).iter().find(|&&(j, home)| j == k && sign * (home - x) > -1e-9) {
+                if let Some(&(_, home)) =
+                    self.on(origin).iter().find(|&&(j, home)| j == k && sign * (home - x) > -1e-9)
+                {
                     steps.push(Step { arc: k, from: x, to: home, jump });
                     return (steps, Stop::Closed);
                 }
@@ -223,13 +235,21 @@ impl<'a, 'b> Joiner<'a, 'b> {
             let end = self.place(&found.arc, to).at;
             // A walk passes every arc once; only its first one is reached again, when it closes.
             let fresh = |found: Vec<(usize, f64)>| -> Vec<(usize, f64)> {
-                let home = |j: usize, x: f64| j == start && j != k && self.sign(j, forward) * (x0 - x) > -1e-9;
-                found.into_iter().filter(|&(j, x)| self.visited[j] != self.walks || home(j, x)).collect()
+                let home = |j: usize, x: f64| {
+                    j == start && j != k && self.sign(j, forward) * (x0 - x) > -1e-9
+                };
+                found
+                    .into_iter()
+                    .filter(|&(j, x)| self.visited[j] != self.walks || home(j, x))
+                    .collect()
             };
             let mut next = self.onward(fresh(self.on(end)), forward);
             jump = false;
             if next.is_none() {
-                next = self.mirrored(end).into_iter().find_map(|at| self.onward(fresh(self.on(at)), forward));
+                next = self
+                    .mirrored(end)
+                    .into_iter()
+                    .find_map(|at| self.onward(fresh(self.on(at)), forward));
                 jump = next.is_some();
             }
             match next {
@@ -288,15 +308,26 @@ impl<'a, 'b> Joiner<'a, 'b> {
     }
 
     /// Places between two of an arc, until chords are near enough.
-    fn fill(&self, arc: &Arc, from: (f64, Solution), to: (f64, Solution), depth: u32, out: &mut Vec<Place>) {
+    fn fill(
+        &self,
+        arc: &Arc,
+        from: (f64, Solution),
+        to: (f64, Solution),
+        depth: u32,
+        out: &mut Vec<Place>,
+    ) {
         let at = |share: f64| from.0 + share * (to.0 - from.0);
         let solve = |share: f64| {
             let z = arc.between(&self.search.a, &self.search.b, at(share), [from.1.z, to.1.z]);
             self.solution(arc, z)
         };
-        let near = |found: &Solution| distance_to_chord(found.place.x, from.1.place.x, to.1.place.x) <= 0.5 * self.chord;
+        let near = |found: &Solution| {
+            distance_to_chord(found.place.x, from.1.place.x, to.1.place.x) <= 0.5 * self.chord
+        };
         let middle = solve(0.5);
-        if depth >= MOST_HALVINGS || (near(&middle) && [0.25, 0.75].iter().all(|&s| near(&solve(s)))) {
+        if depth >= MOST_HALVINGS
+            || (near(&middle) && [0.25, 0.75].iter().all(|&s| near(&solve(s))))
+        {
             return;
         }
         self.fill(arc, from, (at(0.5), middle), depth + 1, out);

@@ -114,12 +114,17 @@ fn apart(n: Vector, a: &Part, b: &Part, error: f64) -> bool {
 /// Judges two parts; `error` bounds the rounding of positions.
 pub fn judge(a: &Part, b: &Part, error: f64) -> Verdict {
     let gap = |k: usize| (a.aabb.low[k] - b.aabb.high[k]).max(b.aabb.low[k] - a.aabb.high[k]);
-    if (0..3).any(|k| gap(k) > error) || apart(a.normal, a, b, error) || apart(b.normal, a, b, error) {
+    if (0..3).any(|k| gap(k) > error)
+        || apart(a.normal, a, b, error)
+        || apart(b.normal, a, b, error)
+    {
         return Verdict::Empty;
     }
-    let first = a.bend > b.bend || (a.bend == b.bend && size(a) >= size(b));
+    let first = a.bend() > b.bend() || (a.bend() == b.bend() && size(a) >= size(b));
     let halve = Verdict::Halve(first);
-    let (Some(sa), Some(sb)) = (&a.slopes, &b.slopes) else { return Verdict::Halve(a.slopes.is_none()) };
+    let (Some(sa), Some(sb)) = (a.slopes(), b.slopes()) else {
+        return Verdict::Halve(a.slopes().is_none());
+    };
     let minus = |v: Vector| scaled(v, -1.0);
     let columns = [a.slope[0], a.slope[1], minus(b.slope[0]), minus(b.slope[1])];
     let t = tangent(&columns);
@@ -128,7 +133,9 @@ pub fn judge(a: &Part, b: &Part, error: f64) -> Verdict {
     let Some(rows) = inverse(o.map(|c| columns[c])) else { return halve };
     let f = sub(a.at, b.at);
     let (g, m) = (rows.map(|r| dot(r, f)), rows.map(|r| dot(r, columns[k])));
-    let slope_range = |row: Vector, c: usize| if c < 2 { range(row, sa, c, 1.0) } else { range(row, sb, c - 2, -1.0) };
+    let slope_range = |row: Vector, c: usize| {
+        if c < 2 { range(row, sa, c, 1.0) } else { range(row, sb, c - 2, -1.0) }
+    };
     let (mut worst_d, mut spread, mut worst) = (0.0f64, 0.0f64, 0.0f64);
     let far = |[low, high]: [f64; 2], x: f64| (low - x).abs().max((high - x).abs());
     let mut bends = [0.0f64; 2];
@@ -175,8 +182,12 @@ pub fn judge(a: &Part, b: &Part, error: f64) -> Verdict {
     if inside[0] > inside[1] {
         return Verdict::Empty;
     }
-    let middle = [a.low[0] + a.high[0], a.low[1] + a.high[1], b.low[0] + b.high[0], b.low[1] + b.high[1]].map(|x| 0.5 * x);
-    let half = [a.high[0] - a.low[0], a.high[1] - a.low[1], b.high[0] - b.low[0], b.high[1] - b.low[1]].map(|x| 0.5 * x);
+    let middle =
+        [a.low[0] + a.high[0], a.low[1] + a.high[1], b.low[0] + b.high[0], b.low[1] + b.high[1]]
+            .map(|x| 0.5 * x);
+    let half =
+        [a.high[0] - a.low[0], a.high[1] - a.low[1], b.high[0] - b.low[0], b.high[1] - b.low[1]]
+            .map(|x| 0.5 * x);
     Verdict::Arc(Box::new(Arc {
         patches: [a.patch, b.patch],
         middle,
@@ -279,7 +290,8 @@ impl Arc {
             for high in [false, true] {
                 let limit = if high { 1.0 } else { 0.0 };
                 let reach = 1.5 * self.half[q];
-                let far = if high { self.middle[q] + reach < 1.0 } else { self.middle[q] - reach > 0.0 };
+                let far =
+                    if high { self.middle[q] + reach < 1.0 } else { self.middle[q] - reach > 0.0 };
                 if far {
                     continue;
                 }
@@ -292,7 +304,15 @@ impl Arc {
         Clip::Kept(ends)
     }
 
-    fn clip_side(&mut self, a: &Pieces, b: &Pieces, q: usize, limit: f64, slack: f64, ends: &mut [Option<usize>; 2]) -> Clip {
+    fn clip_side(
+        &mut self,
+        a: &Pieces,
+        b: &Pieces,
+        q: usize,
+        limit: f64,
+        slack: f64,
+        ends: &mut [Option<usize>; 2],
+    ) -> Clip {
         let sign = if limit > 0.5 { 1.0 } else { -1.0 };
         let side = 2 * q + usize::from(limit > 0.5);
         if q == self.k {
@@ -321,7 +341,8 @@ impl Arc {
         }
         let monotone = self.m[i].abs() > self.spread;
         let at = [0.0, 0.25, 0.5, 0.75, 1.0].map(|s| outside(self, low + s * (high - low)));
-        let (least, greatest) = at.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
+        let (least, greatest) =
+            at.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
         if monotone || greatest <= slack {
             if greatest <= slack {
                 if !monotone && greatest > -slack && least < -4.0 * slack {

@@ -12,6 +12,7 @@ use crate::bezier::extraction;
 use crate::bounds::{Aabb, HALF_ULP, Vector, add, cross, norm, scaled, sub};
 use crate::knots::Knots;
 use crate::surface::Surface;
+use std::cell::OnceCell;
 
 /// How far the reach of a part goes beyond it on each side, as a share of its width.
 const BEYOND: f64 = 0.25;
@@ -66,14 +67,19 @@ pub struct Part {
     pub slope: [Vector; 2],
     /// Unit normal in the middle, or zero.
     pub normal: Vector,
-    /// Slopes everywhere; `None` where a weight is not positive on the reach.
-    pub slopes: Option<Slopes>,
-    /// How far slopes differ from the middle one, in length.
-    pub bend: f64,
+    bounds: OnceCell<Bounds>,
     /// The collapsed side of the patch that it touches: 0 to 3.
     pub pole: Option<usize>,
-    split: u8,
+    degree: [usize; 2],
+    rational: bool,
+    radius: f64,
     halves: Option<[u32; 2]>,
+}
+
+/// What is known of the slopes of a part, made when a test asks for it: most parts are told apart by their hulls.
+struct Bounds {
+    slopes: Option<Slopes>,
+    bend: f64,
 }
 
 /// A surface in pieces.
@@ -117,7 +123,8 @@ impl Pieces {
             error: 0.0,
         };
         let size = surface.poles().iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
-        let steps = 16 * (degree[0] + degree[1] + 2);
+        // Extraction and its application in two directions; halvings are relative to the part, which is smaller.
+        let steps = 8 * (degree[0] + degree[1] + 2);
         pieces.error = steps as f64 * HALF_ULP * size;
         let edges = [0, 1, 2, 3].map(|k| surface.collapsed_spread(k) <= 4.0 * pieces.error);
         for (i, (span_u, u, mu)) in us.iter().enumerate() {
@@ -127,7 +134,14 @@ impl Pieces {
                 let patch = pieces.patches.len() as u32;
                 let at = [i == 0, i + 1 == us.len(), j == 0, j + 1 == columns];
                 let collapsed = [0, 1, 2, 3].map(|k| at[k] && edges[k]);
-                pieces.patches.push(Patch { u: *u, v: *v, poles: poles.clone(), center, root, collapsed });
+                pieces.patches.push(Patch {
+                    u: *u,
+                    v: *v,
+                    poles: poles.clone(),
+                    center,
+                    root,
+                    collapsed,
+                });
                 let part = pieces.part(patch, [0.0; 2], [1.0; 2], poles, center);
                 pieces.parts.push(part);
             }
@@ -135,36 +149,27 @@ impl Pieces {
         pieces
     }
 
-    fn width(&self) -> usize {
-        self.degree[1] + 1
-    }
-
-    fn part(&self, patch: u32, low: [f64; 2], high: [f64; 2], poles: Box<[Pole]>, c: Vector) -> Part {
+    fn part(
+        &self,
+        patch: u32,
+        low: [f64; 2],
+        high: [f64; 2],
+        poles: Box<[Pole]>,
+        c: Vector,
+    ) -> Part {
         let hull: Box<[Vector]> =
             poles.iter().map(|p| add(c, [p[0] / p[3], p[1] / p[3], p[2] / p[3]])).collect();
         let mut aabb = Aabb::EMPTY;
         hull.iter().for_each(|&p| aabb.include(p));
         let [p, pu, pv] = homogeneous(&poles, self.degree, [0.5; 2]);
         let middle = [0, 1, 2].map(|k| p[k] / p[3]);
-        let slope =
-            [pu, pv].map(|d| [0, 1, 2].map(|k| 0.5 * (d[k] - middle[k] * d[3]) / p[3]));
+        let slope = [pu, pv].map(|d| [0, 1, 2].map(|k| 0.5 * (d[k] - middle[k] * d[3]) / p[3]));
         let normal = cross(slope[0], slope[1]);
         let length = norm(normal);
         let flat = length <= 1e-14 * norm(slope[0]) * norm(slope[1]) || length == 0.0;
         let radius = poles.iter().fold(0.0f64, |m, q| m.max(norm([q[0], q[1], q[2]]) / q[3]));
-        let slopes = self.slopes(&poles, middle, p[3], radius);
-        let mut bend = f64::INFINITY;
-        if let Some(slopes) = &slopes {
-            let far = |k: usize| {
-                let hull = slopes.hull[k].iter();
-                hull.fold(0.0f64, |m, &v| m.max(norm(sub(v, slope[k])))) + norm(slopes.added[k])
-            };
-            bend = far(0) + far(1) + (slopes.weight[1] - slopes.weight[0]) * (norm(slope[0]) + norm(slope[1]));
-        }
         let on = [low[0] == 0.0, high[0] == 1.0, low[1] == 0.0, high[1] == 1.0];
         let pole = (0..4).find(|&k| on[k] && self.patches[patch as usize].collapsed[k]);
-        // Toward a collapsed edge parts get shorter, not narrower.
-        let split = pole.map(|side| side as u8 / 2).unwrap_or_else(|| self.direction(&poles, [norm(slope[0]), norm(slope[1])], [low, high]));
         Part {
             pole,
             patch,
@@ -175,18 +180,110 @@ impl Pieces {
             at: add(c, middle),
             slope,
             normal: if flat { [0.0; 3] } else { scaled(normal, 1.0 / length) },
-            slopes,
-            bend,
-            split,
+            bounds: OnceCell::new(),
+            degree: self.degree,
+            rational: self.rational,
+            radius,
             halves: None,
             center: c,
             poles,
         }
     }
 
+    /// The halves of a part, made now if they were not there.
+    pub fn halves(&mut self, k: u32) -> [u32; 2] {
+        let part = &self.parts[k as usize];
+        if let Some(halves) = part.halves {
+            return halves;
+        }
+        let (patch, d) = (part.patch, part.direction() as usize);
+        let (mut low, mut high) = (part.poles.clone(), part.poles.clone());
+        halve(&mut low, &mut high, self.degree, d);
+        let middle = 0.5 * (part.low[d] + part.high[d]);
+        let (mut end, mut start) = (part.high, part.low);
+        end[d] = middle;
+        start[d] = middle;
+        let (first, last) = (part.low, part.high);
+        let center = part.center;
+        // Around a pole of its own, so that rounding is relative to the part and not to the patch.
+        let recentred = |mut net: Box<[Pole]>| {
+            let p = net[net.len() / 2];
+            let by = [0, 1, 2].map(|k| p[k] / p[3]);
+            for q in &mut net {
+                for k in 0..3 {
+                    q[k] -= by[k] * q[3];
+                }
+            }
+            (net, add(center, by))
+        };
+        let (low, c0) = recentred(low);
+        let (high, c1) = recentred(high);
+        let halves =
+            [self.part(patch, first, end, low, c0), self.part(patch, start, last, high, c1)];
+        let at = self.parts.len() as u32;
+        self.parts.extend(halves);
+        self.parts[k as usize].halves = Some([at, at + 1]);
+        [at, at + 1]
+    }
+
+    /// Point and slopes of a patch at unit parameters, a little outside too.
+    pub fn jet(&self, patch: u32, at: [f64; 2]) -> [Vector; 3] {
+        let patch = &self.patches[patch as usize];
+        let [p, pu, pv] = homogeneous(&patch.poles, self.degree, at);
+        let x = [0, 1, 2].map(|k| p[k] / p[3]);
+        let slope = |d: Pole| [0, 1, 2].map(|k| (d[k] - x[k] * d[3]) / p[3]);
+        [add(patch.center, x), slope(pu), slope(pv)]
+    }
+
+    /// The caller's parameters of a place in a patch.
+    pub fn global(&self, patch: u32, at: [f64; 2]) -> [f64; 2] {
+        let patch = &self.patches[patch as usize];
+        let on = |[a, b]: [f64; 2], s: f64| {
+            if s <= 0.5 { a + s * (b - a) } else { b - (1.0 - s) * (b - a) }
+        };
+        [on(patch.u, at[0]), on(patch.v, at[1])].map(|x| x)
+    }
+
+    /// The unit parameters in a patch of the caller's parameters.
+    pub fn local(&self, patch: u32, at: [f64; 2]) -> [f64; 2] {
+        let patch = &self.patches[patch as usize];
+        let on = |[a, b]: [f64; 2], u: f64| {
+            if u - a <= b - u { (u - a) / (b - a) } else { 1.0 - (b - u) / (b - a) }
+        };
+        [on(patch.u, at[0]), on(patch.v, at[1])]
+    }
+
+    /// The patches that hold a place, those beside a knot line both.
+    pub fn patches_at(&self, at: [f64; 2]) -> Vec<u32> {
+        let near = |[a, b]: [f64; 2], u: f64| {
+            let slack = 1e-9 * (b - a);
+            a - slack <= u && u <= b + slack
+        };
+        let rows = self.patches.len() / self.columns;
+        let mut found = Vec::new();
+        for a in 0..rows {
+            if near(self.patches[a * self.columns].u, at[0]) {
+                let row = a * self.columns;
+                found.extend(
+                    (row..row + self.columns)
+                        .filter(|&k| near(self.patches[k].v, at[1]))
+                        .map(|k| k as u32),
+                );
+            }
+        }
+        found
+    }
+}
+
+impl Part {
     /// Which parameter to halve: the one along which second differences are greater; the longer one where nothing bends.
-    fn direction(&self, poles: &[Pole], slope: [f64; 2], [low, high]: [[f64; 2]; 2]) -> u8 {
-        let (width, mut second) = (self.width(), [0.0f64; 2]);
+    fn direction(&self) -> u8 {
+        // Toward a collapsed edge parts get shorter, not narrower.
+        if let Some(side) = self.pole {
+            return side as u8 / 2;
+        }
+        let (poles, low, high, slope) = (&self.poles, self.low, self.high, self.slope.map(norm));
+        let (width, mut second) = (self.degree[1] + 1, [0.0f64; 2]);
         let difference = |a: Pole, b: Pole, c: Pole| {
             let at = |k: usize| a[k] / a[3] - 2.0 * b[k] / b[3] + c[k] / c[3];
             norm([at(0), at(1), at(2)])
@@ -214,12 +311,46 @@ impl Pieces {
         if share[1] > 64.0 * share[0] && slope[1] > 0.0 {
             return 1;
         }
-        if second[0].max(second[1]) <= 1e-3 * length { u8::from(slope[1] > slope[0]) } else { u8::from(second[1] > second[0]) }
+        if second[0].max(second[1]) <= 1e-3 * length {
+            u8::from(slope[1] > slope[0])
+        } else {
+            u8::from(second[1] > second[0])
+        }
     }
 
-    fn slopes(&self, poles: &[Pole], middle: Vector, w: f64, radius: f64) -> Option<Slopes> {
-        let (degree, width) = (self.degree, self.width());
-        let mut net: Vec<Pole> = poles
+    /// Slopes over the reach; `None` where a weight is not positive there.
+    pub fn slopes(&self) -> Option<&Slopes> {
+        self.bounds().slopes.as_ref()
+    }
+
+    /// How far slopes differ from the middle one, in length.
+    pub fn bend(&self) -> f64 {
+        self.bounds().bend
+    }
+
+    fn bounds(&self) -> &Bounds {
+        self.bounds.get_or_init(|| {
+            let slopes = self.bounded_slopes();
+            let mut bend = f64::INFINITY;
+            if let Some(slopes) = &slopes {
+                let far = |k: usize| {
+                    let hull = slopes.hull[k].iter();
+                    hull.fold(0.0f64, |m, &v| m.max(norm(sub(v, self.slope[k]))))
+                        + norm(slopes.added[k])
+                };
+                let size = norm(self.slope[0]) + norm(self.slope[1]);
+                bend = far(0) + far(1) + (slopes.weight[1] - slopes.weight[0]) * size;
+            }
+            Bounds { slopes, bend }
+        })
+    }
+
+    fn bounded_slopes(&self) -> Option<Slopes> {
+        let (degree, width, radius) = (self.degree, self.degree[1] + 1, self.radius);
+        let [p, _, _] = homogeneous(&self.poles, degree, [0.5; 2]);
+        let (w, middle) = (p[3], [0, 1, 2].map(|k| p[k] / p[3]));
+        let mut net: Vec<Pole> = self
+            .poles
             .iter()
             .map(|q| {
                 let x = |k: usize| (q[k] - middle[k] * q[3]) / w;
@@ -242,7 +373,8 @@ impl Pieces {
         let per = |n: usize| n as f64 / (2.0 * (1.0 + 2.0 * BEYOND));
         let mut weight_slope = [0.0f64; 2];
         let mut differences = |k: usize, step: usize| -> Box<[Vector]> {
-            let inside = |at: &usize| if k == 0 { at + step < net.len() } else { at % width + 1 < width };
+            let inside =
+                |at: &usize| if k == 0 { at + step < net.len() } else { at % width + 1 < width };
             (0..net.len())
                 .filter(inside)
                 .map(|at| {
@@ -253,91 +385,22 @@ impl Pieces {
                 .collect()
         };
         let hull = [differences(0, width), differences(1, 1)];
-        let added = weight_slope.map(|s| if self.rational { scaled(reach, s / weight[0]) } else { [0.0; 3] });
+        let added = weight_slope
+            .map(|s| if self.rational { scaled(reach, s / weight[0]) } else { [0.0; 3] });
         if !self.rational {
             weight = [1.0; 2];
         }
         let growth = 2.1f64.powi((degree[0] + degree[1]) as i32) * 32.0 * HALF_ULP;
         Some(Slopes { hull, weight, added, error: growth * (radius + norm(reach)) })
     }
-
-    /// The halves of a part, made now if they were not there.
-    pub fn halves(&mut self, k: u32) -> [u32; 2] {
-        let part = &self.parts[k as usize];
-        if let Some(halves) = part.halves {
-            return halves;
-        }
-        let (patch, d) = (part.patch, part.split as usize);
-        let (mut low, mut high) = (part.poles.clone(), part.poles.clone());
-        halve(&mut low, &mut high, self.degree, d);
-        let middle = 0.5 * (part.low[d] + part.high[d]);
-        let (mut end, mut start) = (part.high, part.low);
-        end[d] = middle;
-        start[d] = middle;
-        let (first, last) = (part.low, part.high);
-        let center = part.center;
-        // Around a pole of its own, so that rounding is relative to the part and not to the patch.
-        let recentred = |mut net: Box<[Pole]>| {
-            let p = net[net.len() / 2];
-            let by = [0, 1, 2].map(|k| p[k] / p[3]);
-            for q in &mut net {
-                for k in 0..3 {
-                    q[k] -= by[k] * q[3];
-                }
-            }
-            (net, add(center, by))
-        };
-        let (low, c0) = recentred(low);
-        let (high, c1) = recentred(high);
-        let halves = [self.part(patch, first, end, low, c0), self.part(patch, start, last, high, c1)];
-        let at = self.parts.len() as u32;
-        self.parts.extend(halves);
-        self.parts[k as usize].halves = Some([at, at + 1]);
-        [at, at + 1]
-    }
-
-    /// Point and slopes of a patch at unit parameters, a little outside too.
-    pub fn jet(&self, patch: u32, at: [f64; 2]) -> [Vector; 3] {
-        let patch = &self.patches[patch as usize];
-        let [p, pu, pv] = homogeneous(&patch.poles, self.degree, at);
-        let x = [0, 1, 2].map(|k| p[k] / p[3]);
-        let slope = |d: Pole| [0, 1, 2].map(|k| (d[k] - x[k] * d[3]) / p[3]);
-        [add(patch.center, x), slope(pu), slope(pv)]
-    }
-
-    /// The caller's parameters of a place in a patch.
-    pub fn global(&self, patch: u32, at: [f64; 2]) -> [f64; 2] {
-        let patch = &self.patches[patch as usize];
-        let on = |[a, b]: [f64; 2], s: f64| if s <= 0.5 { a + s * (b - a) } else { b - (1.0 - s) * (b - a) };
-        [on(patch.u, at[0]), on(patch.v, at[1])].map(|x| x)
-    }
-
-    /// The unit parameters in a patch of the caller's parameters.
-    pub fn local(&self, patch: u32, at: [f64; 2]) -> [f64; 2] {
-        let patch = &self.patches[patch as usize];
-        let on = |[a, b]: [f64; 2], u: f64| if u - a <= b - u { (u - a) / (b - a) } else { 1.0 - (b - u) / (b - a) };
-        [on(patch.u, at[0]), on(patch.v, at[1])]
-    }
-
-    /// The patches that hold a place, those beside a knot line both.
-    pub fn patches_at(&self, at: [f64; 2]) -> Vec<u32> {
-        let near = |[a, b]: [f64; 2], u: f64| {
-            let slack = 1e-9 * (b - a);
-            a - slack <= u && u <= b + slack
-        };
-        let rows = self.patches.len() / self.columns;
-        let mut found = Vec::new();
-        for a in 0..rows {
-            if near(self.patches[a * self.columns].u, at[0]) {
-                let row = a * self.columns;
-                found.extend((row..row + self.columns).filter(|&k| near(self.patches[k].v, at[1])).map(|k| k as u32));
-            }
-        }
-        found
-    }
 }
 
-fn local_poles(surface: &Surface, spans: [usize; 2], mu: &[f64], mv: &[f64]) -> (Box<[Pole]>, Vector) {
+fn local_poles(
+    surface: &Surface,
+    spans: [usize; 2],
+    mu: &[f64],
+    mv: &[f64],
+) -> (Box<[Pole]>, Vector) {
     let (p, q) = (surface.knots_u().degree(), surface.knots_v().degree());
     let columns = surface.knots_v().pole_count();
     let at = |i: usize, j: usize| (spans[0] - p + i) * columns + spans[1] - q + j;
@@ -376,7 +439,11 @@ fn local_poles(surface: &Surface, spans: [usize; 2], mu: &[f64], mv: &[f64]) -> 
 
 /// Homogeneous point and derivatives by the unit parameters.
 fn homogeneous(poles: &[Pole], degree: [usize; 2], at: [f64; 2]) -> [Pole; 3] {
-    if degree[0].max(degree[1]) < 4 { summed::<4>(poles, degree, at) } else { summed::<32>(poles, degree, at) }
+    if degree[0].max(degree[1]) < 4 {
+        summed::<4>(poles, degree, at)
+    } else {
+        summed::<32>(poles, degree, at)
+    }
 }
 
 fn summed<const LEN: usize>(poles: &[Pole], degree: [usize; 2], at: [f64; 2]) -> [Pole; 3] {
@@ -424,7 +491,8 @@ fn bernstein<const LEN: usize>(n: usize, s: f64) -> [[f64; LEN]; 2] {
 /// Splits a net at the middle of a direction.
 fn halve(low: &mut [Pole], high: &mut [Pole], degree: [usize; 2], direction: usize) {
     let width = degree[1] + 1;
-    let (n, step, lines) = if direction == 0 { (degree[0], width, width) } else { (degree[1], 1, degree[0] + 1) };
+    let (n, step, lines) =
+        if direction == 0 { (degree[0], width, width) } else { (degree[1], 1, degree[0] + 1) };
     for line in 0..lines {
         let at = |k: usize| if direction == 0 { line + k * step } else { line * width + k };
         for level in 0..n {

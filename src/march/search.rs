@@ -71,6 +71,8 @@ pub struct Search<'a> {
     pub a: Pieces,
     /// B in pieces.
     pub b: Pieces,
+    /// How far two positions may be off together.
+    error: f64,
     /// Lengths below this are rounding.
     pub floor: f64,
     /// Arcs, in the order in which they were found.
@@ -87,15 +89,30 @@ impl<'a> Search<'a> {
     /// Prepares two surfaces of size about one around the origin; `noise`: what their poles may be off.
     pub fn new(surfaces: [&'a Surface; 2], noise: f64) -> Self {
         let (a, b) = (Pieces::new(surfaces[0]), Pieces::new(surfaces[1]));
-        let floor = 256.0 * HALF_ULP + 4.0 * (noise + a.error + b.error);
-        Self { surfaces, a, b, floor, found: Vec::new(), open: Vec::new(), tips: Vec::new(), judged: 0 }
+        let floor = 64.0 * HALF_ULP + 2.0 * (noise + a.error + b.error);
+        let error = a.error + b.error + noise;
+        Self {
+            surfaces,
+            a,
+            b,
+            error,
+            floor,
+            found: Vec::new(),
+            open: Vec::new(),
+            tips: Vec::new(),
+            judged: 0,
+        }
     }
 
     /// Judges all pairs, at most `budget`.
     ///
     /// # Errors
     /// [`Error::Cancelled`] when `poll(judged, waiting)` said so.
-    pub fn run(&mut self, budget: u64, poll: &mut dyn FnMut(u64, u64) -> bool) -> Result<(), Error> {
+    pub fn run(
+        &mut self,
+        budget: u64,
+        poll: &mut dyn FnMut(u64, u64) -> bool,
+    ) -> Result<(), Error> {
         let mut waiting = self.first_pairs();
         let mut level = 0;
         while !waiting.is_empty() {
@@ -107,7 +124,9 @@ impl<'a> Search<'a> {
                     }
                     return Ok(());
                 }
-                if self.judged.is_multiple_of(GROUP) && poll(self.judged, (waiting.len() - k + next.len()) as u64) {
+                if self.judged.is_multiple_of(GROUP)
+                    && poll(self.judged, (waiting.len() - k + next.len()) as u64)
+                {
                     return Err(Error::Cancelled);
                 }
                 self.step(pair, level, &mut next);
@@ -121,7 +140,9 @@ impl<'a> Search<'a> {
     /// Pairs of patches whose boxes meet: blocks of B's patches first.
     fn first_pairs(&self) -> Vec<(u32, u32)> {
         const BLOCK: usize = 32;
-        let meets = |a: &Aabb, b: &Aabb| (0..3).all(|k| a.low[k] <= b.high[k] + self.floor && b.low[k] <= a.high[k] + self.floor);
+        let meets = |a: &Aabb, b: &Aabb| {
+            (0..3).all(|k| a.low[k] <= b.high[k] + self.floor && b.low[k] <= a.high[k] + self.floor)
+        };
         let of = |pieces: &Pieces, k: usize| pieces.parts[pieces.patches[k].root as usize].aabb;
         let blocks: Vec<Aabb> = (0..self.b.patches.len().div_ceil(BLOCK))
             .map(|block| {
@@ -150,7 +171,7 @@ impl<'a> Search<'a> {
         self.judged += 1;
         let (a, b) = (&self.a.parts[i as usize], &self.b.parts[j as usize]);
         let by_size = size(a) >= size(b);
-        let halve_first = match judge(a, b, self.a.error + self.b.error + 0.25 * self.floor) {
+        let halve_first = match judge(a, b, self.error) {
             Verdict::Empty => return,
             Verdict::Arc(arc) => match self.keep(*arc, [i, j]) {
                 true => return,
@@ -165,12 +186,20 @@ impl<'a> Search<'a> {
             }
             return;
         }
-        let thin = 8.0 * self.floor;
-        let flat = a.bend.min(1e9) + b.bend.min(1e9) <= 0.5 * thin
+        let thin = self.floor;
+        let flat = a.bend().min(1e9) + b.bend().min(1e9) <= thin
             || is_slab(a.normal, a, b, thin)
             || is_slab(b.normal, a, b, thin);
         let narrow = |p: &Part| (0..2).any(|k| p.high[k] - p.low[k] < 1e-12);
         if flat || narrow(a) || narrow(b) {
+            for tip in
+                [a.pole.map(|side| (0, side)), b.pole.map(|side| (1, side))].into_iter().flatten()
+            {
+                if !self.tips.contains(&tip) {
+                    self.tips.push(tip);
+                }
+            }
+            let (a, b) = (&self.a.parts[i as usize], &self.b.parts[j as usize]);
             let why = if level < 2 && self.coincide(a, b) { Open::Area } else { Open::Flat };
             return self.leave((i, j), why);
         }
@@ -259,7 +288,8 @@ impl<'a> Search<'a> {
             let moved = into_domain(sa, moved);
             settle(sa, sb, [moved[0], moved[1], touch.at[2], touch.at[3]], reach).is_some_and(|t| {
                 let there = sa.evaluate(t.at[0], t.at[1]);
-                let moved = norm(sub(there, sa.evaluate(touch.at[0], touch.at[1]))) > 0.25 * by.abs();
+                let moved =
+                    norm(sub(there, sa.evaluate(touch.at[0], touch.at[1]))) > 0.25 * by.abs();
                 moved && t.gap.abs() <= self.floor && t.rank() == 1 && t.slope <= 1e-7
             })
         };
@@ -287,7 +317,8 @@ impl<'a> Search<'a> {
             let at = pieces.global(part.patch, at);
             // A collapsed edge has no tangent plane: the other places decide.
             let Some((touch, _)) = look(surface, other, at, near) else { continue };
-            let apart = norm(sub(surface.evaluate(at[0], at[1]), other.evaluate(touch.at[2], touch.at[3])));
+            let apart =
+                norm(sub(surface.evaluate(at[0], at[1]), other.evaluate(touch.at[2], touch.at[3])));
             if apart > 2.0 * touch.gap.abs() + 8.0 * self.floor {
                 continue;
             }

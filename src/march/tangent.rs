@@ -49,7 +49,9 @@ impl Tracer<'_, '_> {
         let to = |h: f64| {
             let move_ = [0, 1].map(|k| from.at[k] + sign * h * from.step[1][k]);
             let inside = into_domain(self.search.surfaces[0], move_) == move_;
-            let touch = inside.then(|| self.touch([move_[0], move_[1], from.at[2], from.at[3]], 2.0 * h)).flatten();
+            let touch = inside
+                .then(|| self.touch([move_[0], move_[1], from.at[2], from.at[3]], 2.0 * h))
+                .flatten();
             touch.filter(|t| dot(sub(self.place(t).x, self.place(from).x), along) > 0.0)
         };
         if let Some(touch) = to(h) {
@@ -70,7 +72,9 @@ impl Tracer<'_, '_> {
         let [a, b] = self.search.surfaces;
         let (da, db) = (a.domain(), b.domain());
         let ends = [da[0], da[1], da[2], da[3], db[0], db[1], db[2], db[3]];
-        (0..8).find(|&side| (at[side / 2] - ends[side]).abs() <= 1e-7 * (ends[side | 1] - ends[side & !1]))
+        (0..8).find(|&side| {
+            (at[side / 2] - ends[side]).abs() <= 1e-7 * (ends[side | 1] - ends[side & !1])
+        })
     }
 
     /// Places from `first` on, without it.
@@ -84,7 +88,10 @@ impl Tracer<'_, '_> {
             };
             let there = self.place(&next).x;
             let step = sub(there, here);
-            if all.len() > 1 && distance_to_chord(origin, here, there) < 0.05 * h && dot(sub(origin, here), step) > 0.0 {
+            if all.len() > 1
+                && distance_to_chord(origin, here, there) < 0.05 * h
+                && dot(sub(origin, here), step) > 0.0
+            {
                 all.push(first);
                 return (all, Stop::Closed);
             }

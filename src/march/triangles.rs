@@ -89,7 +89,8 @@ fn meet(a: &Triangle, b: &Triangle) -> Option<[Node; 2]> {
 
 /// Segments joined end to end; ends nearer than `near` are one.
 fn joined(segments: Vec<[Node; 2]>, near: f64) -> Vec<Polyline> {
-    let cell = |x: Vector, by: [i64; 3]| [0, 1, 2].map(|k| (x[k] / (4.0 * near)).floor() as i64 + by[k]);
+    let cell =
+        |x: Vector, by: [i64; 3]| [0, 1, 2].map(|k| (x[k] / (4.0 * near)).floor() as i64 + by[k]);
     let mut grid: HashMap<[i64; 3], Vec<(usize, usize)>> = HashMap::new();
     for (k, segment) in segments.iter().enumerate() {
         for end in 0..2 {
@@ -130,19 +131,28 @@ fn joined(segments: Vec<[Node; 2]>, near: f64) -> Vec<Polyline> {
 }
 
 fn node_gap(a: &Pieces, b: &Pieces) -> f64 {
-    let size = |p: &Pieces| p.parts.iter().fold(Aabb::EMPTY, |all, part| all.union(part.aabb)).diagonal();
+    let size =
+        |p: &Pieces| p.parts.iter().fold(Aabb::EMPTY, |all, part| all.union(part.aabb)).diagonal();
     1e-9 * size(a).min(size(b))
 }
 
 /// Subdivision by hulls: to `depth` halvings of each surface, or, when `flat` is a length, until every piece is as flat as that.
 /// At most `budget` pairs; what is left then is taken as it is.
-pub fn subdivided(a: &Surface, b: &Surface, depth: u32, flat: Option<f64>, budget: usize) -> Vec<Polyline> {
+pub fn subdivided(
+    a: &Surface,
+    b: &Surface,
+    depth: u32,
+    flat: Option<f64>,
+    budget: usize,
+) -> Vec<Polyline> {
     let (mut p, mut q) = (Pieces::new(a), Pieces::new(b));
     let near = node_gap(&p, &q);
     let error = p.error + q.error;
     let roots = |x: &Pieces| x.patches.iter().map(|patch| patch.root).collect::<Vec<_>>();
-    let mut waiting: Vec<(u32, u32, u32, u32)> =
-        roots(&p).into_iter().flat_map(|i| roots(&q).into_iter().map(move |j| (i, j, 0, 0))).collect();
+    let mut waiting: Vec<(u32, u32, u32, u32)> = roots(&p)
+        .into_iter()
+        .flat_map(|i| roots(&q).into_iter().map(move |j| (i, j, 0, 0)))
+        .collect();
     let (mut segments, mut looked) = (Vec::new(), 0);
     while let Some((i, j, di, dj)) = waiting.pop() {
         looked += 1;
@@ -151,7 +161,7 @@ pub fn subdivided(a: &Surface, b: &Surface, depth: u32, flat: Option<f64>, budge
             continue;
         }
         let done = |part: &Part, d: u32| match flat {
-            Some(flat) => part.bend <= flat || d >= 40,
+            Some(flat) => part.bend() <= flat || d >= 40,
             None => d >= depth,
         };
         let ends = [done(x, di), done(y, dj)];
@@ -170,7 +180,10 @@ pub fn subdivided(a: &Surface, b: &Surface, depth: u32, flat: Option<f64>, budge
 
 fn flat_part(pieces: &Pieces, part: &Part) -> [Triangle; 2] {
     triangles(|s, t| {
-        let at = [part.low[0] + s * (part.high[0] - part.low[0]), part.low[1] + t * (part.high[1] - part.low[1])];
+        let at = [
+            part.low[0] + s * (part.high[0] - part.low[0]),
+            part.low[1] + t * (part.high[1] - part.low[1]),
+        ];
         (pieces.global(part.patch, at), pieces.jet(part.patch, at)[0])
     })
 }
@@ -180,7 +193,9 @@ pub fn meshed(a: &Surface, b: &Surface, cells: usize) -> Vec<Polyline> {
     let grid = |surface: &Surface| {
         let [u0, u1, v0, v1] = surface.domain();
         let at = |i: usize, j: usize| {
-            let share = |k: usize, [x, y]: [f64; 2]| if k == cells { y } else { x + (y - x) * k as f64 / cells as f64 };
+            let share = |k: usize, [x, y]: [f64; 2]| {
+                if k == cells { y } else { x + (y - x) * k as f64 / cells as f64 }
+            };
             let at = [share(i, [u0, u1]), share(j, [v0, v1])];
             (at, surface.evaluate(at[0], at[1]))
         };
@@ -195,7 +210,9 @@ pub fn meshed(a: &Surface, b: &Surface, cells: usize) -> Vec<Polyline> {
         all
     };
     let (p, q) = (grid(a), grid(b));
-    let (mut segments, meets) = (Vec::new(), |x: &Aabb, y: &Aabb| (0..3).all(|k| x.low[k] <= y.high[k] && y.low[k] <= x.high[k]));
+    let (mut segments, meets) = (Vec::new(), |x: &Aabb, y: &Aabb| {
+        (0..3).all(|k| x.low[k] <= y.high[k] && y.low[k] <= x.high[k])
+    });
     let mut size = Aabb::EMPTY;
     for row in q.chunks_exact(cells.max(1)) {
         let block = row.iter().fold(Aabb::EMPTY, |all, cell| all.union(cell.0));

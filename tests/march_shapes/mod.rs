@@ -15,8 +15,11 @@ pub struct Motion {
 }
 
 impl Motion {
-    pub const NONE: Self =
-        Self { rows: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], factor: 1.0, shift: [0.0; 3] };
+    pub const NONE: Self = Self {
+        rows: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        factor: 1.0,
+        shift: [0.0; 3],
+    };
 
     /// Rotation from a quaternion.
     pub fn new([w, x, y, z]: [f64; 4], factor: f64, shift: P) -> Self {
@@ -31,7 +34,9 @@ impl Motion {
     }
 
     pub fn apply(&self, p: P) -> P {
-        std::array::from_fn(|i| self.factor * (0..3).map(|k| self.rows[i][k] * p[k]).sum::<f64>() + self.shift[i])
+        std::array::from_fn(|i| {
+            self.factor * (0..3).map(|k| self.rows[i][k] * p[k]).sum::<f64>() + self.shift[i]
+        })
     }
 
     pub fn back(&self, p: P) -> P {
@@ -93,7 +98,9 @@ pub fn torus(big: f64, r: f64) -> Surface {
     let profile: Vec<[f64; 3]> = corner
         .iter()
         .enumerate()
-        .map(|(i, c)| [big + r * f64::from(c[0]), r * f64::from(c[1]), if i % 2 == 1 { h } else { 1.0 }])
+        .map(|(i, c)| {
+            [big + r * f64::from(c[0]), r * f64::from(c[1]), if i % 2 == 1 { h } else { 1.0 }]
+        })
         .collect();
     let knots = [0.0, 0.0, 0.0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1.0, 1.0, 1.0];
     revolved(&profile, 2, &knots)

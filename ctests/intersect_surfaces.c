@@ -1,0 +1,154 @@
+/* Surface-surface intersection: branches, contacts, overlaps; what is refused; budget, stop, progress; curves of a branch. */
+#include "samples.h"
+
+static fpt_surface *plane_at(double z) {
+    static const double knots[] = {0, 0, 1, 1};
+    double poles[12] = {-9, -9, 0, -9, 9, 0, 9, -9, 0, 9, 9, 0};
+    for (int i = 0; i < 4; i++) poles[3 * i + 2] = z;
+    return make_surface(surface_data(1, 1, 2, 2, knots, knots, poles, NULL));
+}
+
+static fpt_intersection_summary summary_of(const fpt_surface_intersection *found) {
+    fpt_intersection_summary out;
+    memset(&out, 0, sizeof out);
+    CHECK_OK(fpt_surface_intersection_summary(found, &out));
+    return out;
+}
+
+/* The cone with apex (1,0,3) over the circle of radius 2: at height 1.5 a circle of radius 1, over the cone's seam. */
+static void a_cone_is_cut_in_a_circle_and_its_apex_is_a_contact(void) {
+    fpt_surface *cone = make_surface(cone_surface()), *plane = plane_at(1.5);
+    fpt_surface_intersection *found = NULL;
+    CHECK_OK(fpt_intersect_surfaces(cone, plane, NULL, &found));
+    fpt_intersection_summary s = summary_of(found);
+    CHECK(s.branch_count == 1 && s.contact_count == 0 && s.overlap_count == 0 && s.undecided_count == 0);
+    CHECK(s.is_proven == 1 && s.is_exhausted == 0 && s.pairs > 0);
+    fpt_intersection_branch branch;
+    CHECK_OK(fpt_surface_intersection_branch(found, 0, &branch));
+    CHECK(branch.is_closed == 1 && branch.is_tangential == 0 && branch.point_count > 8 && branch.gap < 1e-13);
+    CHECK(branch.end_kind[0] == FPT_BRANCH_END_CLOSED && branch.end_kind[1] == FPT_BRANCH_END_CLOSED);
+    fpt_intersection_point *points = calloc(branch.point_count, sizeof *points);
+    CHECK_OK(fpt_surface_intersection_points(found, 0, branch.point_count, points));
+    for (size_t i = 0; i < branch.point_count; i++) {
+        CHECK_NEAR(points[i].point[2], 1.5, 1e-14);
+        CHECK_NEAR(hypot(points[i].point[0] - 1, points[i].point[1]), 1, 1e-13);
+        double on[3];
+        CHECK_OK(fpt_surface_evaluate(cone, points[i].uv[0], points[i].uv[1], 0, on));
+        CHECK_NEAR(on[0], points[i].point[0], 1e-14);
+        CHECK_OK(fpt_surface_evaluate(plane, points[i].st[0], points[i].st[1], 0, on));
+        CHECK_NEAR(on[1], points[i].point[1], 1e-14);
+    }
+    CHECK(fpt_surface_intersection_points(found, 0, branch.point_count - 1, points) == FPT_INVALID_ARGUMENT);
+    CHECK(strstr(fpt_last_error(), "capacity") != NULL);
+
+    size_t count = 0;
+    fpt_curve *curves[3] = {NULL, NULL, NULL};
+    double error = -1, at[3];
+    CHECK_OK(fpt_surface_intersection_curves(found, cone, plane, 0, 1e-6, 0, &count, curves, &error));
+    CHECK(count >= 1 && error >= 0 && error < 1e-6);
+    for (int k = 0; k < 3; k++) {
+        double ends[2];
+        CHECK_OK(fpt_curve_domain(curves[k], ends));
+        CHECK_OK(fpt_curve_evaluate(curves[k], 0.5 * (ends[0] + ends[1]), 0, at));
+        CHECK(k == 0 ? fabs(at[2] - 1.5) < 1e-6 : at[2] == 0);
+        fpt_curve_free(curves[k]);
+    }
+    CHECK(fpt_surface_intersection_curves(found, cone, plane, 0, 0, 0, &count, curves, &error) == FPT_INVALID_ARGUMENT);
+    CHECK(fpt_surface_intersection_curves(found, cone, plane, 0, 1e-6, 99, &count, curves, &error) == FPT_INVALID_ARGUMENT);
+    CHECK(fpt_surface_intersection_curves(found, cone, NULL, 0, 1e-6, 0, &count, curves, &error) == FPT_NULL_ARGUMENT);
+    fpt_surface_intersection_free(found);
+    fpt_surface_free(plane);
+
+    plane = plane_at(3);
+    CHECK_OK(fpt_intersect_surfaces(cone, plane, NULL, &found));
+    s = summary_of(found);
+    CHECK(s.branch_count == 0 && s.contact_count == 1 && s.is_proven == 0);
+    fpt_intersection_contact contact;
+    CHECK_OK(fpt_surface_intersection_contact(found, 0, &contact));
+    CHECK(contact.kind == FPT_CONTACT_TIP && contact.gap < 1e-13 && contact.radius < 1e-5);
+    CHECK_NEAR(contact.place.point[0], 1, 1e-12);
+    CHECK(fpt_surface_intersection_contact(found, 1, &contact) == FPT_INVALID_ARGUMENT);
+    CHECK(fpt_surface_intersection_branch(found, 0, &branch) == FPT_INVALID_ARGUMENT);
+    fpt_surface_intersection_free(found);
+    free(points);
+    fpt_surface_free(plane);
+    fpt_surface_free(cone);
+}
+
+static void coincident_planes_overlap(void) {
+    fpt_surface *a = plane_at(1), *b = plane_at(1);
+    fpt_surface_intersection *found = NULL;
+    double range[8];
+    CHECK_OK(fpt_intersect_surfaces(a, b, NULL, &found));
+    CHECK(summary_of(found).overlap_count >= 1);
+    CHECK_OK(fpt_surface_intersection_overlap(found, 0, range));
+    CHECK(range[0] == 0 && range[1] == 1 && range[6] == 0 && range[7] == 1);
+    CHECK(fpt_surface_intersection_undecided(found, 0, range) == FPT_INVALID_ARGUMENT);
+    fpt_surface_intersection_free(found);
+    fpt_surface_free(a);
+    fpt_surface_free(b);
+}
+
+static int stop_now(void *user) { return *(int *)user; }
+
+static void count_calls(void *user, size_t done, size_t total) {
+    CHECK(done <= total);
+    ++*(size_t *)user;
+}
+
+static void budget_stop_and_misuse(void) {
+    fpt_surface *cone = make_surface(cone_surface()), *plane = plane_at(1.5);
+    fpt_surface_intersection *found = NULL;
+    fpt_intersect_surfaces_options options;
+    fpt_intersect_surfaces_options_init(&options, sizeof options);
+    CHECK(options.struct_size == sizeof options && options.chord == 0 && options.budget == 0);
+    fpt_intersect_surfaces_options_init(NULL, sizeof options);
+
+    options.budget = 5;
+    CHECK(fpt_intersect_surfaces(cone, plane, &options, &found) == FPT_BUDGET_EXHAUSTED);
+    CHECK(found != NULL && summary_of(found).is_exhausted == 1 && summary_of(found).undecided_count > 0);
+    double range[8];
+    CHECK_OK(fpt_surface_intersection_undecided(found, 0, range));
+    fpt_surface_intersection_free(found);
+    found = NULL;
+
+    int stop = 1;
+    options.budget = 0;
+    options.should_stop = stop_now;
+    options.user = &stop;
+    CHECK(fpt_intersect_surfaces(cone, plane, &options, &found) == FPT_CANCELLED && found == NULL);
+    size_t calls = 0;
+    options.should_stop = NULL;
+    options.progress = count_calls;
+    options.user = &calls;
+    CHECK_OK(fpt_intersect_surfaces(cone, plane, &options, &found));
+    CHECK(calls > 0);
+    fpt_surface_intersection_free(found);
+    found = NULL;
+
+    options.progress = NULL;
+    options.chord = -1;
+    CHECK(fpt_intersect_surfaces(cone, plane, &options, &found) == FPT_INVALID_ARGUMENT);
+    CHECK(strstr(fpt_last_error(), "chord") != NULL);
+    options.chord = NAN;
+    CHECK(fpt_intersect_surfaces(cone, plane, &options, &found) == FPT_INVALID_ARGUMENT);
+    options.struct_size = 3;
+    CHECK(fpt_intersect_surfaces(cone, plane, &options, &found) != FPT_OK);
+    CHECK(fpt_intersect_surfaces(NULL, plane, NULL, &found) == FPT_NULL_ARGUMENT);
+    CHECK(strstr(fpt_last_error(), "a:") != NULL);
+    CHECK(fpt_intersect_surfaces(cone, NULL, NULL, &found) == FPT_NULL_ARGUMENT);
+    CHECK(strstr(fpt_last_error(), "b:") != NULL);
+    CHECK(fpt_intersect_surfaces(cone, plane, NULL, NULL) == FPT_NULL_ARGUMENT && found == NULL);
+    fpt_intersection_summary s;
+    CHECK(fpt_surface_intersection_summary(NULL, &s) == FPT_NULL_ARGUMENT);
+    fpt_surface_intersection_free(NULL);
+    fpt_surface_free(plane);
+    fpt_surface_free(cone);
+}
+
+int main(void) {
+    RUN(a_cone_is_cut_in_a_circle_and_its_apex_is_a_contact);
+    RUN(coincident_planes_overlap);
+    RUN(budget_stop_and_misuse);
+    return check_report("intersect_surfaces");
+}

@@ -1,0 +1,464 @@
+//! Surface-surface intersection: branches, contacts, regions and boxes behind a handle.
+//!
+//! The result is written when it is complete and also when the budget ran out (then with FPT_BUDGET_EXHAUSTED and what is
+//! undecided); any other failure writes nothing.
+
+use super::curve::fpt_curve;
+use super::form::CurveForm;
+use super::memory::{output, place, shared, write_array};
+use super::options::{SelfSized, check_length, sized};
+use super::query::Callbacks;
+use super::surface::{self, fpt_surface};
+use super::{Failure, fpt_status, guard};
+use crate::curve::Curve;
+use crate::index::IndexedCurve;
+use crate::march::curves::curves;
+use crate::march::{ContactKind, End, Intersection, MarchOptions, MarchPoint, Region, intersect};
+use std::ffi::{c_int, c_void};
+use std::mem::{offset_of, size_of};
+use std::sync::Arc;
+
+/// All that two surfaces have in common. Immutable: any number of threads may read one at a time. Owned by the caller,
+/// released by fpt_surface_intersection_free; it does not refer to the surfaces that it came from.
+pub struct fpt_surface_intersection {
+    found: Intersection,
+}
+
+/// What an end of a branch is, for fpt_intersection_branch.end_kind.
+#[repr(C)]
+pub enum fpt_branch_end {
+    /// The branch is closed.
+    FPT_BRANCH_END_CLOSED = 0,
+    /// A border: end_index is the side, 0 to 7 for u low, u high, v low, v high of A, then of B.
+    FPT_BRANCH_END_BORDER = 1,
+    /// A contact (a branch point, a cusp, a collapsed edge): end_index is its number.
+    FPT_BRANCH_END_CONTACT = 2,
+    /// An undecided box is there.
+    FPT_BRANCH_END_UNDECIDED = 3,
+}
+
+/// What a contact is, for fpt_intersection_contact.kind.
+#[repr(C)]
+pub enum fpt_contact_kind {
+    /// The surfaces touch from one side.
+    FPT_CONTACT_TOUCHING = 0,
+    /// Two curves cross.
+    FPT_CONTACT_CROSSING = 1,
+    /// The surfaces agree beyond the second order, or have no tangent plane.
+    FPT_CONTACT_DEGENERATE = 2,
+    /// A border of one surface just meets the other.
+    FPT_CONTACT_BORDER = 3,
+    /// A collapsed edge of one surface lies on the other.
+    FPT_CONTACT_TIP = 4,
+}
+
+/// What an intersection asks for. Fill it with fpt_intersect_surfaces_options_init, then change what matters. All zero after
+/// struct_size is the default of everything. Grows at the end only.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct fpt_intersect_surfaces_options {
+    /// sizeof(fpt_intersect_surfaces_options), set by fpt_intersect_surfaces_options_init.
+    pub struct_size: usize,
+    /// Length, finite, >= 0. How far a branch may be from the chord between two of its points. 0: 1e-3 x the size of
+    /// the smaller surface (the power of two above the diagonal of its box).
+    pub chord: f64,
+    /// Most pairs of parts; 0: the default, 2,000,000.
+    pub budget: u64,
+    /// Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED. NULL: never.
+    pub should_stop: Option<unsafe extern "C" fn(user: *mut c_void) -> c_int>,
+    /// Told on the calling thread now and then: pairs judged, and pairs judged or waiting. NULL: nobody.
+    pub progress: Option<unsafe extern "C" fn(user: *mut c_void, done: usize, total: usize)>,
+    /// Handed to the callbacks as it is.
+    pub user: *mut c_void,
+}
+
+impl Default for fpt_intersect_surfaces_options {
+    fn default() -> Self {
+        Self {
+            struct_size: size_of::<Self>(),
+            chord: 0.0,
+            budget: 0,
+            should_stop: None,
+            progress: None,
+            user: std::ptr::null_mut(),
+        }
+    }
+}
+
+// SAFETY: repr(C), begins with struct_size; numbers, a raw pointer and nullable function pointers.
+unsafe impl SelfSized for fpt_intersect_surfaces_options {
+    const SHORTER: &'static [usize] = &[
+        offset_of!(Self, chord),
+        offset_of!(Self, budget),
+        offset_of!(Self, should_stop),
+        offset_of!(Self, progress),
+        offset_of!(Self, user),
+    ];
+
+    fn defaults() -> Self {
+        Self::default()
+    }
+}
+
+/// Counts and verdicts of an intersection.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct fpt_intersection_summary {
+    /// Curves.
+    pub branch_count: usize,
+    /// Points.
+    pub contact_count: usize,
+    /// Boxes in which the surfaces coincide.
+    pub overlap_count: usize,
+    /// Boxes about which nothing is known.
+    pub undecided_count: usize,
+    /// Pairs of parts judged.
+    pub pairs: u64,
+    /// 1: nothing is missing and every branch is transversal, with proof. 0 with contacts, overlaps, tangential branches or
+    /// undecided boxes: what touches cannot be told from a gap below the rounding.
+    pub is_proven: u32,
+    /// 1: the budget ran out.
+    pub is_exhausted: u32,
+}
+
+/// A branch without its points.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct fpt_intersection_branch {
+    /// Number of points.
+    pub point_count: usize,
+    /// Greatest distance between the two surface points of one of its points.
+    pub gap: f64,
+    /// 1: the surfaces touch along it.
+    pub is_tangential: u32,
+    /// 1: it is a loop; its first point comes again as the last.
+    pub is_closed: u32,
+    /// Values of fpt_branch_end, of its beginning and its end.
+    pub end_kind: [u32; 2],
+    /// What they refer to.
+    pub end_index: [u32; 2],
+}
+
+/// A point of an intersection: 56 bytes, frozen.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct fpt_intersection_point {
+    /// Middle of the two surface points.
+    pub point: [f64; 3],
+    /// Parameters of A.
+    pub uv: [f64; 2],
+    /// Parameters of B.
+    pub st: [f64; 2],
+}
+
+const _: () = {
+    assert!(size_of::<fpt_intersection_point>() == 56 && size_of::<MarchPoint>() == 56);
+    assert!(offset_of!(fpt_intersection_point, point) == offset_of!(MarchPoint, point));
+    assert!(offset_of!(fpt_intersection_point, uv) == offset_of!(MarchPoint, uv));
+    assert!(offset_of!(fpt_intersection_point, st) == offset_of!(MarchPoint, st));
+};
+
+/// An isolated contact.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct fpt_intersection_contact {
+    /// Where.
+    pub place: fpt_intersection_point,
+    /// Distance between the surfaces there.
+    pub gap: f64,
+    /// Length: what the surfaces do within it was not told apart further.
+    pub radius: f64,
+    /// A value of fpt_contact_kind.
+    pub kind: u32,
+    /// 0.
+    pub reserved: u32,
+}
+
+/// Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.
+/// Does nothing when `options` is NULL or struct_size is smaller than a size_t.
+/// @since 0.1
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_intersect_surfaces_options_init(
+    options: *mut fpt_intersect_surfaces_options,
+    struct_size: usize,
+) {
+    if options.is_null() || struct_size < size_of::<usize>() {
+        return;
+    }
+    let known = struct_size.min(size_of::<fpt_intersect_surfaces_options>());
+    let defaults = fpt_intersect_surfaces_options { struct_size, ..Default::default() };
+    let source = (&raw const defaults).cast::<u8>();
+    let target = options.cast::<u8>();
+    // SAFETY: the caller's struct has `struct_size` bytes; `defaults` has no padding before `known`.
+    unsafe {
+        source.copy_to_nonoverlapping(target, known);
+        target.add(known).write_bytes(0, struct_size - known);
+    }
+}
+
+/// All branches and points that two surfaces have in common, with proof that none is missing, or with what could not be decided.
+///
+/// Pairs of Bezier pieces are halved until they provably hold nothing or one transversal arc; loops cannot hide. Where the surfaces touch
+/// to the last digits, the contact is classified and measured, not proven.
+///
+/// @param a, b     surfaces of knots and poles; FPT_UNSUPPORTED for one given by a function, or that is a point
+/// @param options  NULL: the defaults
+/// @param out      the result; release it with fpt_surface_intersection_free
+/// @return FPT_BUDGET_EXHAUSTED with a result that misses what lies in its undecided boxes
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_intersect_surfaces(
+    a: *const fpt_surface,
+    b: *const fpt_surface,
+    options: *const fpt_intersect_surfaces_options,
+    out: *mut *mut fpt_surface_intersection,
+) -> fpt_status {
+    // SAFETY: the header asks for live handles, options and room for a handle.
+    guard(|| unsafe {
+        let (a, b) = (surface::indexed_as("a", a)?, surface::indexed_as("b", b)?);
+        let given = if options.is_null() {
+            fpt_intersect_surfaces_options::default()
+        } else {
+            sized("options", options)?
+        };
+        check_length("chord", given.chord)?;
+        let out = place("out", out)?;
+        let callbacks = Callbacks::telling(given.should_stop, given.progress, given.user);
+        let asked = MarchOptions { chord: given.chord, budget: given.budget };
+        let found = intersect(a, b, &asked, &mut |done, left| {
+            callbacks.poll(done as usize, (done + left) as usize)
+        })?;
+        let (exhausted, left) = (found.exhausted, found.undecided.len());
+        *out = Box::into_raw(Box::new(fpt_surface_intersection { found }));
+        if !exhausted {
+            return Ok(());
+        }
+        let text = format!(
+            "budget: ran out with {left} boxes undecided; see fpt_surface_intersection_undecided"
+        );
+        Err(Failure::Budget(text))
+    })
+}
+
+/// Counts and verdicts.
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_surface_intersection_summary(
+    intersection: *const fpt_surface_intersection,
+    out: *mut fpt_intersection_summary,
+) -> fpt_status {
+    // SAFETY: the header asks for a live handle and room for a record.
+    guard(|| unsafe {
+        let found = &shared("intersection", intersection)?.found;
+        *place("out", out)? = fpt_intersection_summary {
+            branch_count: found.branches.len(),
+            contact_count: found.contacts.len(),
+            overlap_count: found.overlaps.len(),
+            undecided_count: found.undecided.len(),
+            pairs: found.judged,
+            is_proven: u32::from(found.is_proven),
+            is_exhausted: u32::from(found.exhausted),
+        };
+        Ok(())
+    })
+}
+
+/// A branch without its points.
+///
+/// @param index  below branch_count, else FPT_INVALID_ARGUMENT
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_surface_intersection_branch(
+    intersection: *const fpt_surface_intersection,
+    index: usize,
+    out: *mut fpt_intersection_branch,
+) -> fpt_status {
+    // SAFETY: the header asks for a live handle and room for a record.
+    guard(|| unsafe {
+        let branch = item(&shared("intersection", intersection)?.found.branches, index)?;
+        let end = |end: End| match end {
+            End::Closed => (fpt_branch_end::FPT_BRANCH_END_CLOSED, 0),
+            End::Border(side) => (fpt_branch_end::FPT_BRANCH_END_BORDER, u32::from(side)),
+            End::Contact(contact) => (fpt_branch_end::FPT_BRANCH_END_CONTACT, contact as u32),
+            End::Undecided => (fpt_branch_end::FPT_BRANCH_END_UNDECIDED, 0),
+        };
+        let [(first, i), (last, j)] = branch.ends.map(end);
+        *place("out", out)? = fpt_intersection_branch {
+            point_count: branch.points.len(),
+            gap: branch.gap,
+            is_tangential: u32::from(branch.is_tangential),
+            is_closed: u32::from(branch.is_closed()),
+            end_kind: [first as u32, last as u32],
+            end_index: [i, j],
+        };
+        Ok(())
+    })
+}
+
+/// The points of a branch, in order. At a seam of a closed surface the same point comes twice, with the parameters of either side.
+///
+/// @param index     below branch_count, else FPT_INVALID_ARGUMENT
+/// @param capacity  room in `out`, at least the branch's point_count, else FPT_INVALID_ARGUMENT
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_surface_intersection_points(
+    intersection: *const fpt_surface_intersection,
+    index: usize,
+    capacity: usize,
+    out: *mut fpt_intersection_point,
+) -> fpt_status {
+    // SAFETY: the header asks for a live handle and room for the points; the layouts agree (above).
+    guard(|| unsafe {
+        let points = &item(&shared("intersection", intersection)?.found.branches, index)?.points;
+        if capacity < points.len() {
+            let text = format!("capacity: {capacity} given, {} points", points.len());
+            return Err(Failure::invalid(text));
+        }
+        output("out", out.cast::<MarchPoint>(), points.len())?.copy_from_slice(points);
+        Ok(())
+    })
+}
+
+/// A contact.
+///
+/// @param index  below contact_count, else FPT_INVALID_ARGUMENT
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_surface_intersection_contact(
+    intersection: *const fpt_surface_intersection,
+    index: usize,
+    out: *mut fpt_intersection_contact,
+) -> fpt_status {
+    // SAFETY: the header asks for a live handle and room for a record.
+    guard(|| unsafe {
+        let contact = item(&shared("intersection", intersection)?.found.contacts, index)?;
+        let kind = match contact.kind {
+            ContactKind::Touching => fpt_contact_kind::FPT_CONTACT_TOUCHING,
+            ContactKind::Crossing => fpt_contact_kind::FPT_CONTACT_CROSSING,
+            ContactKind::Degenerate => fpt_contact_kind::FPT_CONTACT_DEGENERATE,
+            ContactKind::Border => fpt_contact_kind::FPT_CONTACT_BORDER,
+            ContactKind::Tip => fpt_contact_kind::FPT_CONTACT_TIP,
+        };
+        let MarchPoint { point, uv, st } = contact.place;
+        *place("out", out)? = fpt_intersection_contact {
+            place: fpt_intersection_point { point, uv, st },
+            gap: contact.gap,
+            radius: contact.radius,
+            kind: kind as u32,
+            reserved: 0,
+        };
+        Ok(())
+    })
+}
+
+/// A box in which the surfaces coincide to the last digits.
+///
+/// @param index      below overlap_count, else FPT_INVALID_ARGUMENT
+/// @param out_range  8 numbers: ends of u, v of A, of u, v of B
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_surface_intersection_overlap(
+    intersection: *const fpt_surface_intersection,
+    index: usize,
+    out_range: *mut f64,
+) -> fpt_status {
+    // SAFETY: the header asks for a live handle and room for eight numbers.
+    guard(|| unsafe {
+        let Region { range } = item(&shared("intersection", intersection)?.found.overlaps, index)?;
+        write_array("out_range", range, 8, out_range)
+    })
+}
+
+/// A box about which nothing is known.
+///
+/// @param index      below undecided_count, else FPT_INVALID_ARGUMENT
+/// @param out_range  8 numbers: ends of u, v of A, of u, v of B
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_surface_intersection_undecided(
+    intersection: *const fpt_surface_intersection,
+    index: usize,
+    out_range: *mut f64,
+) -> fpt_status {
+    // SAFETY: the header asks for a live handle and room for eight numbers.
+    guard(|| unsafe {
+        let Region { range } = item(&shared("intersection", intersection)?.found.undecided, index)?;
+        write_array("out_range", range, 8, out_range)
+    })
+}
+
+/// A branch as cubic B-splines in space and in both domains (z = 0), with the same knots. A branch over a seam is cut there.
+///
+/// @param a, b        the surfaces that the intersection was made of
+/// @param index       below branch_count, else FPT_INVALID_ARGUMENT
+/// @param tolerance   length, > 0: what the fit aims at
+/// @param part        which part between two seams; beyond the count of parts FPT_INVALID_ARGUMENT
+/// @param out_count   the number of parts
+/// @param out_curves  3 handles: in space, in A's domain, in B's domain; release each with fpt_curve_free
+/// @param out_error   greatest distance that was measured, 16 places a span: of the curve from either surface (certified), and from
+///                    the surface points at its parameters
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_surface_intersection_curves(
+    intersection: *const fpt_surface_intersection,
+    a: *const fpt_surface,
+    b: *const fpt_surface,
+    index: usize,
+    tolerance: f64,
+    part: usize,
+    out_count: *mut usize,
+    out_curves: *mut *mut fpt_curve,
+    out_error: *mut f64,
+) -> fpt_status {
+    // SAFETY: the header asks for live handles and room for the outputs.
+    guard(|| unsafe {
+        let branch = item(&shared("intersection", intersection)?.found.branches, index)?;
+        let (a, b) = (surface::indexed_as("a", a)?, surface::indexed_as("b", b)?);
+        let (count, error) = (place("out_count", out_count)?, place("out_error", out_error)?);
+        let out = output("out_curves", out_curves, 3)?;
+        let mut parts = curves(a, b, &branch.points, tolerance)?;
+        if part >= parts.len() {
+            let text = format!("part: {part} is not below the count of {}", parts.len());
+            return Err(Failure::invalid(text));
+        }
+        *count = parts.len();
+        let made = parts.swap_remove(part);
+        *error = made.error;
+        out.copy_from_slice(&[handed(made.space), handed(made.uv), handed(made.st)]);
+        Ok(())
+    })
+}
+
+/// Releases an intersection. NULL is fine. No other call may use the handle during or after this one.
+/// @since 0.1
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_surface_intersection_free(
+    intersection: *mut fpt_surface_intersection,
+) {
+    let release = || {
+        if !intersection.is_null() {
+            // SAFETY: a handle comes from Box::into_raw and is released once.
+            drop(unsafe { Box::from_raw(intersection) });
+        }
+        Ok(())
+    };
+    let _ = guard(release);
+}
+
+fn handed(curve: Curve) -> *mut fpt_curve {
+    fpt_curve::handle(CurveForm::Spline(Arc::new(IndexedCurve::new(curve))))
+}
+
+fn item<T>(list: &[T], index: usize) -> Result<&T, Failure> {
+    let beyond =
+        || Failure::invalid(format!("index: {index} is not below the count of {}", list.len()));
+    list.get(index).ok_or_else(beyond)
+}

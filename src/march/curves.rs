@@ -1,0 +1,205 @@
+//! Curves from branches: fewer points, and B-splines in space and in both parameter planes with one parameter.
+//!
+//! ```text
+//!   points -> a cubic through them in (x, y, z, u, v, s, t) -> each of its places corrected onto both surfaces -> a spline of seven
+//!             coordinates near that function -> split into C(t), (u, v)(t), (s, t)(t) on the same knots
+//! ```
+//!
+//! The error is measured on the result, four times as densely as the fit: the greatest certified distance of C(t) from either surface,
+//! and of C(t) from A(u(t), v(t)) and B(s(t), t(t)). Parameters count in the fit as the lengths that they move.
+
+use super::MarchPoint;
+use super::correct::{Corrector, correct};
+use super::join::distance_to_chord;
+use crate::bounds::{Vector, norm, sub};
+use crate::closest::{QueryOptions, Workspace};
+use crate::curve::Curve;
+use crate::error::Error;
+use crate::fit::{Adaptive, interpolate, of_function};
+use crate::index::IndexedSurface;
+use crate::surface::Surface;
+
+/// A branch, or the part of it between two seams, as curves with a common parameter.
+pub struct BranchCurves {
+    /// In space.
+    pub space: Curve,
+    /// In the domain of A, z = 0.
+    pub uv: Curve,
+    /// In the domain of B, z = 0.
+    pub st: Curve,
+    /// Greatest distance of `space` from either surface, and from the surface points of `uv` and `st`, at the places looked at.
+    pub error: f64,
+    /// Greatest certified distance of `space` from A and from B at these places.
+    pub distance: [f64; 2],
+}
+
+/// The points that are needed for the polyline to stay within `chord` of the given one: the farthest point is kept, over and over.
+/// Ends and both points of a seam stay.
+pub fn reduced(points: &[MarchPoint], chord: f64) -> Vec<MarchPoint> {
+    let mut keep = vec![false; points.len()];
+    let mut waiting = Vec::new();
+    let mut start = 0;
+    for k in 1..=points.len() {
+        if k == points.len() || is_seam(&points[k - 1], &points[k]) {
+            (keep[start], keep[k - 1]) = (true, true);
+            // A loop has no chord: its farthest point makes two.
+            waiting.push((start, k - 1));
+            start = k;
+        }
+    }
+    while let Some((i, j)) = waiting.pop() {
+        let far = |k: usize| distance_to_chord(points[k].point, points[i].point, points[j].point);
+        let Some(worst) = (i + 1..j).max_by(|&k, &l| far(k).total_cmp(&far(l))) else { continue };
+        if far(worst) > chord {
+            keep[worst] = true;
+            waiting.extend([(i, worst), (worst, j)]);
+        }
+    }
+    points.iter().zip(keep).filter(|(_, keep)| *keep).map(|(point, _)| *point).collect()
+}
+
+/// The same point of space with other parameters.
+fn is_seam(a: &MarchPoint, b: &MarchPoint) -> bool {
+    a.point == b.point && (a.uv != b.uv || a.st != b.st)
+        || norm(sub(a.point, b.point)) <= 1e-12 * (norm(a.point) + 1e-300)
+            && (a.uv != b.uv || a.st != b.st)
+}
+
+/// The curves of a branch: one set between two seams. `tolerance` is what the fit aims at, a length.
+///
+/// # Errors
+/// [`Error::InvalidArgument`] for a tolerance that is not a positive length, or a branch of a single point.
+pub fn curves(
+    a: &IndexedSurface,
+    b: &IndexedSurface,
+    points: &[MarchPoint],
+    tolerance: f64,
+) -> Result<Vec<BranchCurves>, Error> {
+    if !tolerance.is_finite() || tolerance <= 0.0 {
+        return Err(Error::InvalidArgument(format!(
+            "tolerance: {tolerance} is not a positive length"
+        )));
+    }
+    let mut all = Vec::new();
+    let mut start = 0;
+    for k in 1..=points.len() {
+        if k == points.len() || is_seam(&points[k - 1], &points[k]) {
+            if k - start > 1 {
+                all.push(run(a, b, &points[start..k], tolerance)?);
+            }
+            start = k;
+        }
+    }
+    if all.is_empty() {
+        return Err(Error::InvalidArgument("branch: has fewer than two points".into()));
+    }
+    Ok(all)
+}
+
+/// Mean lengths of the steps of the four parameters along the points.
+fn scales(a: &Surface, b: &Surface, points: &[MarchPoint]) -> [f64; 4] {
+    let mut sum = [0.0; 4];
+    for p in points {
+        let (mut x, mut y) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
+        a.partials(p.uv[0], p.uv[1], 1, &mut x);
+        b.partials(p.st[0], p.st[1], 1, &mut y);
+        for (sum, d) in sum.iter_mut().zip([x[1], x[2], y[1], y[2]]) {
+            *sum += norm(d) / points.len() as f64;
+        }
+    }
+    sum.map(|x| x.max(1e-300))
+}
+
+fn run(
+    a: &IndexedSurface,
+    b: &IndexedSurface,
+    points: &[MarchPoint],
+    tolerance: f64,
+) -> Result<BranchCurves, Error> {
+    let (sa, sb) = (a.surface(), b.surface());
+    let scale = scales(sa, sb, points);
+    let seven = |x: Vector, at: [f64; 4]| {
+        [x[0], x[1], x[2], at[0] * scale[0], at[1] * scale[1], at[2] * scale[2], at[3] * scale[3]]
+    };
+    let mut parameters = vec![0.0];
+    let mut list = vec![seven(
+        points[0].point,
+        [points[0].uv[0], points[0].uv[1], points[0].st[0], points[0].st[1]],
+    )];
+    for pair in points.windows(2) {
+        let length = norm(sub(pair[1].point, pair[0].point));
+        if length > 0.0 {
+            parameters.push(parameters[parameters.len() - 1] + length);
+            list.push(seven(
+                pair[1].point,
+                [pair[1].uv[0], pair[1].uv[1], pair[1].st[0], pair[1].st[1]],
+            ));
+        }
+    }
+    let total = parameters[parameters.len() - 1];
+    if list.len() < 2 {
+        return Err(Error::InvalidArgument("branch: has no length".into()));
+    }
+    let base = interpolate(3.min(list.len() - 1), &parameters, &list)?.spline;
+    let function = |t: f64| {
+        let p = base.evaluate(t);
+        let at = [p[3] / scale[0], p[4] / scale[1], p[5] / scale[2], p[6] / scale[3]];
+        // Ends are what they are; places between go to the nearest point of the curve.
+        if t == 0.0 || t == total {
+            return Some(if t == 0.0 { list[0] } else { list[list.len() - 1] });
+        }
+        let found = correct(sa, sb, at, Corrector::NewtonFour, tolerance, None);
+        let at = found.map_or(at, |found| found.at);
+        let (x, y) = (
+            sa.evaluate(clamp(sa, [at[0], at[1]])[0], clamp(sa, [at[0], at[1]])[1]),
+            sb.evaluate(clamp(sb, [at[2], at[3]])[0], clamp(sb, [at[2], at[3]])[1]),
+        );
+        Some(seven([0, 1, 2].map(|k| 0.5 * (x[k] + y[k])), at))
+    };
+    let options = Adaptive { degree: 3, tolerance: 0.25 * tolerance, ..Adaptive::default() };
+    let spline = of_function(function, [0.0, total], &options)?.spline;
+    let knots = spline.knots().values();
+    let part = |first: usize, scale: [f64; 2]| {
+        let poles: Vec<Vector> = spline
+            .poles()
+            .iter()
+            .map(|p| [p[first] / scale[0], p[first + 1] / scale[1], 0.0])
+            .collect();
+        Curve::new(knots, 3, &poles, None)
+    };
+    let poles: Vec<Vector> = spline.poles().iter().map(|p| [p[0], p[1], p[2]]).collect();
+    let space = Curve::new(knots, 3, &poles, None)?;
+    let (uv, st) = (part(3, [scale[0], scale[1]])?, part(5, [scale[2], scale[3]])?);
+    let mut out = BranchCurves { space, uv, st, error: 0.0, distance: [0.0; 2] };
+    measure(a, b, &mut out);
+    Ok(out)
+}
+
+fn clamp(surface: &Surface, at: [f64; 2]) -> [f64; 2] {
+    super::contact::into_domain(surface, at)
+}
+
+fn measure(a: &IndexedSurface, b: &IndexedSurface, out: &mut BranchCurves) {
+    let (options, mut workspace) = (QueryOptions::default(), Workspace::default());
+    let knots = out.space.knots();
+    let spans: Vec<[f64; 2]> =
+        knots.spans().map(|k| [knots.values()[k], knots.values()[k + 1]]).collect();
+    for [low, high] in spans {
+        for n in 0..16 {
+            let t = low + (high - low) * (n as f64 + 0.5) / 16.0;
+            let x = out.space.evaluate(t);
+            let (p, q) = (out.uv.evaluate(t), out.st.evaluate(t));
+            let (uv, st) = (clamp(a.surface(), [p[0], p[1]]), clamp(b.surface(), [q[0], q[1]]));
+            let feet = [
+                a.closest(x, Some(uv), &options, &mut workspace, None),
+                b.closest(x, Some(st), &options, &mut workspace, None),
+            ];
+            for k in 0..2 {
+                out.distance[k] = out.distance[k].max(feet[k].distance);
+            }
+            let on = [a.surface().evaluate(uv[0], uv[1]), b.surface().evaluate(st[0], st[1])];
+            let apart = on.iter().fold(0.0f64, |m, &y| m.max(norm(sub(x, y))));
+            out.error = out.error.max(apart).max(feet[0].distance).max(feet[1].distance);
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! Each method of intersection by name, beside the certified search; curves and fewer points of branches.
+
+mod march_shapes;
+
+use footpoint::index::IndexedSurface;
+use footpoint::march::correct::{Corrector, correct};
+use footpoint::march::curves::{curves, reduced};
+use footpoint::march::follow::{WalkEnd, follow};
+use footpoint::march::triangles::{Polyline, meshed, subdivided};
+use footpoint::march::{MarchOptions, intersect};
+use footpoint::surface::Surface;
+use march_shapes::{P, bumps, cylinder, lid, moved, plane, sphere, torus, z_to_x};
+
+fn pair() -> (Surface, Surface) {
+    (torus(2.0, 0.5), plane([-3.0, -3.1, 0.1], [6.0, 0.0, 0.3], [0.0, 6.2, 0.2]))
+}
+
+fn off(p: P) -> f64 {
+    let plane = p[2] - 0.1 - 0.05 * (p[0] + 3.0) - 0.2 / 6.2 * (p[1] + 3.1);
+    let torus = (p[0].hypot(p[1]) - 2.0).hypot(p[2]) - 0.5;
+    plane.abs().max(torus.abs())
+}
+
+/// A place beside the curve, some share of the domain away on all four parameters.
+fn starts(a: &Surface, b: &Surface, beside: f64) -> Vec<[f64; 4]> {
+    let found = intersect(
+        &IndexedSurface::new(a.clone()),
+        &IndexedSurface::new(b.clone()),
+        &MarchOptions::default(),
+        &mut |_, _| false,
+    )
+    .unwrap();
+    let points = found.branches.iter().flat_map(|branch| branch.points.iter().step_by(7));
+    let moved = |x: f64, by: f64| (x + by * beside).clamp(0.0, 1.0);
+    points
+        .map(|p| {
+            [moved(p.uv[0], 0.7), moved(p.uv[1], -0.5), moved(p.st[0], 0.6), moved(p.st[1], 0.9)]
+        })
+        .collect()
+}
+
+#[test]
+fn correctors_end_on_both_surfaces_in_few_steps() {
+    let (a, b) = pair();
+    let starts = starts(&a, &b, 1e-2);
+    assert!(starts.len() > 10);
+    let methods = [
+        Corrector::Auto,
+        Corrector::NewtonFour,
+        Corrector::Maf,
+        Corrector::NewtonThree(0),
+        Corrector::NewtonThree(1),
+        Corrector::NewtonThree(2),
+        Corrector::NewtonThree(3),
+    ];
+    for method in methods {
+        let (mut solved, mut steps) = (0, 0);
+        for &start in &starts {
+            let mut seen = 0;
+            let mut trace = |_: u32, _: [f64; 4], _: f64| seen += 1;
+            let Some(found) = correct(&a, &b, start, method, 1e-9, Some(&mut trace)) else {
+                continue;
+            };
+            let [u, v, s, t] = found.at;
+            assert!(
+                off(a.evaluate(u, v)) < 2e-9 && off(b.evaluate(s, t)) < 2e-9,
+                "{method:?} {found:?}"
+            );
+            assert_eq!(seen, found.steps + 1);
+            if let Corrector::NewtonThree(held) = method {
+                assert_eq!(found.at[held], start[held]);
+            }
+            (solved, steps) = (solved + 1, steps + found.steps);
+        }
+        println!(
+            "{method:?}: {solved} of {}, {:.2} steps",
+            starts.len(),
+            f64::from(steps) / f64::from(solved.max(1))
+        );
+        // An isoline may miss the curve: three parameters then fail, and say so. All four must not.
+        let all = !matches!(method, Corrector::NewtonThree(_));
+        assert!(
+            if all { solved as usize == starts.len() } else { solved > 0 },
+            "{method:?}: {solved}"
+        );
+        assert!(!all || steps <= 8 * solved, "{method:?}: {steps} steps for {solved}");
+    }
+}
+
+#[test]
+fn a_held_isoline_that_misses_the_curve_is_a_failure_and_a_border_is_kept() {
+    // The loop around a bump: u beyond it never meets the lid.
+    let (a, b) = (bumps(1, |p| p), lid(1, 4.0 / 9.0 - 1e-2, |p| p));
+    let start = [4.5, 3.0, 0.5, 0.5];
+    assert!(correct(&a, &b, start, Corrector::NewtonThree(0), 1e-10, None).is_none());
+    // A curve that leaves through a border: the corrected place stays in the domain and on the curve.
+    let (a, b) = (cylinder(1.0, 2.0), plane([0.3, -3.0, -3.1], [0.0, 6.2, 0.0], [0.0, 0.0, 6.3]));
+    let u = 0.2;
+    let found = correct(&a, &b, [u, 1.0, 0.6, 0.9], Corrector::NewtonFour, 1e-12, None).unwrap();
+    assert!(found.gap < 1e-14 && (0.0..=1.0).contains(&found.at[1]));
+}
+
+#[test]
+fn marching_finds_the_branch_of_its_start() {
+    let (a, b) = pair();
+    let whole = intersect(
+        &IndexedSurface::new(a.clone()),
+        &IndexedSurface::new(b.clone()),
+        &MarchOptions::default(),
+        &mut |_, _| false,
+    );
+    let whole = whole.unwrap();
+    for corrector in [Corrector::Auto, Corrector::Maf] {
+        for branch in &whole.branches {
+            let p = branch.points[branch.points.len() / 3];
+            let start = [p.uv[0], p.uv[1], p.st[0], p.st[1]];
+            let walk = follow(&a, &b, start, corrector, 0.05, 1e-3).unwrap();
+            // The walk ends at the seams of the torus, the branch goes on.
+            assert!(
+                walk.ends.iter().all(|end| matches!(end, WalkEnd::Border | WalkEnd::Closed)),
+                "{:?}",
+                walk.ends
+            );
+            assert!(walk.places.len() > 10);
+            for at in &walk.places {
+                assert!(off(a.evaluate(at[0], at[1])) < 1e-4);
+            }
+        }
+    }
+    // A loop inside both domains closes.
+    let (a, b) = (bumps(1, |p| p), lid(1, 4.0 / 9.0 - 1e-2, |p| p));
+    let top = intersect(
+        &IndexedSurface::new(a.clone()),
+        &IndexedSurface::new(b.clone()),
+        &MarchOptions::default(),
+        &mut |_, _| false,
+    );
+    let p = top.unwrap().branches[0].points[3];
+    let walk =
+        follow(&a, &b, [p.uv[0], p.uv[1], p.st[0], p.st[1]], Corrector::Auto, 0.01, 1e-4).unwrap();
+    assert_eq!(walk.ends, [WalkEnd::Closed; 2]);
+    assert!(walk.places.len() > 12 && walk.places.len() < 400);
+}
+
+fn length(line: &Polyline) -> f64 {
+    let apart = |w: &[footpoint::march::triangles::Node]| {
+        (0..3).map(|k| (w[0].x[k] - w[1].x[k]).powi(2)).sum::<f64>().sqrt()
+    };
+    line.windows(2).map(apart).sum()
+}
+
+#[test]
+fn discrete_methods_find_the_same_curves_coarsely() {
+    let (a, b) = (sphere(1.0), plane([-3.0, -3.1, 0.3], [6.0, 0.0, 0.0], [0.0, 6.2, 0.0]));
+    let want = 2.0 * std::f64::consts::PI * 0.91f64.sqrt();
+    let depth = subdivided(&a, &b, 8, None, 1_000_000);
+    let flat = subdivided(&a, &b, 0, Some(1e-2), 1_000_000);
+    let mesh = meshed(&a, &b, 40);
+    for (name, lines) in [("depth", &depth), ("flat", &flat), ("mesh", &mesh)] {
+        let total: f64 = lines.iter().map(length).sum();
+        println!(
+            "{name}: {} lines, {} nodes, length {total} of {want}",
+            lines.len(),
+            lines.iter().map(Vec::len).sum::<usize>()
+        );
+        assert!((total - want).abs() < 2e-2 * want, "{name}: {total} for {want}");
+        // Nodes are starts for a corrector.
+        for node in lines.iter().flatten().step_by(5) {
+            let found = correct(&a, &b, node.at, Corrector::Auto, 1e-10, None).unwrap();
+            assert!((a.evaluate(found.at[0], found.at[1])[2] - 0.3).abs() < 1e-10);
+        }
+    }
+    assert!(mesh.len() == 1, "{} lines", mesh.len());
+}
+
+#[test]
+fn curves_of_a_branch_agree_and_fewer_points_keep_the_chord() {
+    let a = IndexedSurface::new(cylinder(1.0, 2.0));
+    let b = IndexedSurface::new(moved(&cylinder(0.6, 2.0), &z_to_x([0.0; 3])));
+    let options = MarchOptions { chord: 1e-4, ..MarchOptions::default() };
+    let found = intersect(&a, &b, &options, &mut |_, _| false).unwrap();
+    assert_eq!(found.branches.len(), 2);
+    for branch in &found.branches {
+        let few = reduced(&branch.points, 1e-2);
+        assert!(
+            few.len() * 2 < branch.points.len() && few.len() > 6,
+            "{} of {}",
+            few.len(),
+            branch.points.len()
+        );
+        assert_eq!(
+            (few[0], few[few.len() - 1]),
+            (branch.points[0], branch.points[branch.points.len() - 1])
+        );
+        let parts = curves(&a, &b, &branch.points, 1e-6).unwrap();
+        assert!(!parts.is_empty());
+        for part in &parts {
+            assert!(part.error <= 1e-6, "{:e}", part.error);
+            let (low, high) = part.space.domain();
+            for n in 0..=40 {
+                let t = low + (high - low) * f64::from(n) / 40.0;
+                let p = part.space.evaluate(t);
+                assert!(
+                    (p[0].hypot(p[1]) - 1.0).abs() < 1e-6 && (p[1].hypot(p[2]) - 0.6).abs() < 1e-6
+                );
+                let uv = part.uv.evaluate(t);
+                let on = a.surface().evaluate(uv[0].clamp(0.0, 1.0), uv[1].clamp(0.0, 1.0));
+                assert!((0..3).all(|k| (on[k] - p[k]).abs() < 2e-6));
+            }
+        }
+        assert!(
+            curves(&a, &b, &branch.points, 0.0).is_err()
+                && curves(&a, &b, &branch.points[..1], 1e-6).is_err()
+        );
+    }
+}
