@@ -449,6 +449,35 @@ void weights_are_those_of_the_c_api() {
     CHECK(rest.weights()[1] > 0);
 }
 
+void surfaces_meet_in_branches() {
+    const std::vector<double> knots{0, 0, 1, 1};
+    const footpoint::surface flat(1, 1, knots, knots, {-2, -2, 0, -2, 2, 0, 2, -2, 0, 2, 2, 0});
+    const footpoint::surface saddle(1, 1, knots, knots, {-1, -1, 1, -1, 1, -0.5, 1, -1, -0.5, 1, 1, 1});
+    const footpoint::surface_intersection found(saddle, flat);
+    const auto summary = found.summary();
+    CHECK(found.size() == 2 && summary.is_proven == 1 && summary.contact_count == 0 && summary.undecided_count == 0);
+    for (std::size_t i = 0; i < found.size(); i++) {
+        const auto branch = found.branch(i);
+        CHECK(branch.is_closed == 0 && branch.end_kind[0] == FPT_BRANCH_END_BORDER && branch.end_index[0] < 4);
+        for (const auto &p : found.points(i)) CHECK_NEAR(p.point[2], 0, 1e-15);
+        const auto curves = found.curves(saddle, flat, i, 1e-7);
+        CHECK(curves.error < 1e-7 && curves.part_count == 1 && curves.uv.degree() == 3);
+    }
+    const footpoint::surface_intersection same(flat, flat);
+    CHECK(same.summary().overlap_count >= 1 && same.overlap(0)[1] > 0);
+    bool refused = false;
+    try {
+        same.contact(0);
+    } catch (const footpoint::error &) {
+        refused = true;
+    }
+    CHECK(refused);
+    footpoint::intersect_surfaces_options few;
+    few.budget = 1;
+    const footpoint::surface_intersection part(saddle, flat, few);
+    CHECK(part.summary().is_exhausted == 1 && part.undecided(0)[1] > 0);
+}
+
 void versions_agree() {
     CHECK(footpoint::version() == FPT_VERSION && footpoint::abi_version() == FPT_ABI_VERSION);
 }
@@ -472,6 +501,7 @@ int main() {
     RUN(normals_without_sides_and_derivatives_in_scenes);
     RUN(misuse_throws);
     RUN(weights_are_those_of_the_c_api);
+    RUN(surfaces_meet_in_branches);
     RUN(versions_agree);
     return check_report("wrapper");
 }

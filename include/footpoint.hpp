@@ -1097,6 +1097,85 @@ inline curve positive_form(std::size_t degree, span<const double> knots, span<co
     return curve(out);
 }
 
+/** fpt_intersect_surfaces_options that begin as the defaults. */
+struct intersect_surfaces_options : fpt_intersect_surfaces_options {
+    intersect_surfaces_options() noexcept : fpt_intersect_surfaces_options() {
+        fpt_intersect_surfaces_options_init(this, sizeof(fpt_intersect_surfaces_options));
+    }
+};
+
+/** A branch as curves in space and in both domains, and the greatest distance that was measured. */
+struct branch_curves {
+    curve space, uv, st;
+    double error;
+    std::size_t part_count;
+};
+
+/** All that two surfaces have in common: owner of an fpt_surface_intersection. */
+class surface_intersection {
+public:
+    /** As fpt_intersect_surfaces; a budget that runs out gives a result that is exhausted. */
+    surface_intersection(const surface &a, const surface &b,
+                         const fpt_intersect_surfaces_options &options = intersect_surfaces_options()) {
+        fpt_surface_intersection *out = nullptr;
+        const fpt_status status = fpt_intersect_surfaces(a.get(), b.get(), &options, &out);
+        if (status != FPT_BUDGET_EXHAUSTED) check(status);
+        handle_.reset(out);
+    }
+
+    /** The handle, still owned here. */
+    const fpt_surface_intersection *get() const noexcept { return handle_.get(); }
+
+    fpt_intersection_summary summary() const {
+        fpt_intersection_summary out{};
+        check(fpt_surface_intersection_summary(get(), &out));
+        return out;
+    }
+    /** The number of branches. */
+    std::size_t size() const { return summary().branch_count; }
+    fpt_intersection_branch branch(std::size_t index) const {
+        fpt_intersection_branch out{};
+        check(fpt_surface_intersection_branch(get(), index, &out));
+        return out;
+    }
+    std::vector<fpt_intersection_point> points(std::size_t index) const {
+        std::vector<fpt_intersection_point> out(branch(index).point_count);
+        check(fpt_surface_intersection_points(get(), index, out.size(), out.data()));
+        return out;
+    }
+    fpt_intersection_contact contact(std::size_t index) const {
+        fpt_intersection_contact out{};
+        check(fpt_surface_intersection_contact(get(), index, &out));
+        return out;
+    }
+    /** Ends of u, v of A, of u, v of B. */
+    std::array<double, 8> overlap(std::size_t index) const {
+        std::array<double, 8> out{};
+        check(fpt_surface_intersection_overlap(get(), index, out.data()));
+        return out;
+    }
+    std::array<double, 8> undecided(std::size_t index) const {
+        std::array<double, 8> out{};
+        check(fpt_surface_intersection_undecided(get(), index, out.data()));
+        return out;
+    }
+    /** As fpt_surface_intersection_curves. */
+    branch_curves curves(const surface &a, const surface &b, std::size_t index, double tolerance, std::size_t part = 0) const {
+        fpt_curve *out[3] = {nullptr, nullptr, nullptr};
+        std::size_t count = 0;
+        double error = 0;
+        check(fpt_surface_intersection_curves(get(), a.get(), b.get(), index, tolerance, part, &count, out, &error));
+        return {curve(out[0]), curve(out[1]), curve(out[2]), error, count};
+    }
+
+private:
+    struct deleter {
+        void operator()(fpt_surface_intersection *handle) const noexcept { fpt_surface_intersection_free(handle); }
+    };
+
+    std::unique_ptr<fpt_surface_intersection, deleter> handle_;
+};
+
 } // namespace footpoint
 
 #endif

@@ -13,8 +13,9 @@ from ._library import Cancelled, abi_version, version
 from ._scene import NO_MEMBER, Scene
 from ._shapes import Curve, Surface
 from .convert import from_freecad, from_geomdl, from_occ, from_splinepy
+from .intersection import BranchEnd, ContactKind, Intersection, intersect_surfaces
 
 __version__ = version()
-__all__ = ["NO_MEMBER", "Cancelled", "Curve", "Feet", "Flag", "FootSet", "Kind", "Method", "Nature", "NormalFlag", "PathChange",
-           "Scene", "Scope", "Surface", "abi_version", "convert", "from_freecad", "from_geomdl", "from_occ", "from_splinepy", "version",
-           "weights"]
+__all__ = ["NO_MEMBER", "BranchEnd", "Cancelled", "ContactKind", "Curve", "Intersection", "Feet", "Flag", "FootSet", "Kind", "Method", "Nature", "NormalFlag", "PathChange",
+           "Scene", "Scope", "Surface", "abi_version", "convert", "from_freecad", "from_geomdl", "from_occ", "from_splinepy",
+           "intersect_surfaces", "version", "weights"]

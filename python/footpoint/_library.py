@@ -101,12 +101,38 @@ class WeightsConicShape(ctypes.Structure):
     _fields_ = [("weight", c_double), ("rho", c_double), ("eccentricity", c_double)]
 
 
+class IntersectSurfacesOptions(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("chord", c_double), ("budget", c_uint64), ("should_stop", StopFunction),
+                ("progress", ProgressFunction), ("user", c_void_p)]
+
+
+class IntersectionSummary(ctypes.Structure):
+    _fields_ = [("branch_count", c_size_t), ("contact_count", c_size_t), ("overlap_count", c_size_t), ("undecided_count", c_size_t),
+                ("pairs", c_uint64), ("is_proven", c_uint32), ("is_exhausted", c_uint32)]
+
+
+class IntersectionBranch(ctypes.Structure):
+    _fields_ = [("point_count", c_size_t), ("gap", c_double), ("is_tangential", c_uint32), ("is_closed", c_uint32),
+                ("end_kind", c_uint32 * 2), ("end_index", c_uint32 * 2)]
+
+
+class IntersectionPoint(ctypes.Structure):
+    _fields_ = [("point", c_double * 3), ("uv", c_double * 2), ("st", c_double * 2)]
+
+
+class IntersectionContact(ctypes.Structure):
+    _fields_ = [("place", IntersectionPoint), ("gap", c_double), ("radius", c_double), ("kind", c_uint32), ("reserved", c_uint32)]
+
+
 STRUCTS: dict[str, type[ctypes.Structure]] = {
     "fpt_curve_data": CurveData, "fpt_surface_data": SurfaceData, "fpt_curve_callback": CurveCallback,
     "fpt_surface_callback": SurfaceCallback, "fpt_query_options": QueryOptions, "fpt_extrema_options": ExtremaOptions,
     "fpt_foot_point": FootPoint, "fpt_foot_member": FootMember, "fpt_scene_member": SceneMember, "fpt_scene_data": SceneData,
     "fpt_weights_options": WeightsOptions, "fpt_weights_constraint": WeightsConstraint, "fpt_weights_pole": WeightsPole,
     "fpt_weights_outcome": WeightsOutcome, "fpt_weights_summary": WeightsSummary, "fpt_weights_conic_shape": WeightsConicShape,
+    "fpt_intersect_surfaces_options": IntersectSurfacesOptions, "fpt_intersection_summary": IntersectionSummary,
+    "fpt_intersection_branch": IntersectionBranch, "fpt_intersection_point": IntersectionPoint,
+    "fpt_intersection_contact": IntersectionContact,
 }
 
 # One letter an argument: p pointer (arrays, handles, structs), z size_t, d double, I uint32_t, i int32_t.
@@ -137,12 +163,16 @@ _STATUS = {
     "weights_report_surface": "pp", "weights_move_point": "pdzdp", "weights_through_point": "pzpdpp", "weights_conic": "ppp",
     "weights_of_rho": "dp", "weights_of_eccentricity": "pdpp", "weights_normalise": "pzIp", "weights_bound": "pzdp",
     "weights_standard_form": "pp", "weights_positive_form": "zzppp",
+    "intersect_surfaces": "pppp", "surface_intersection_summary": "pp", "surface_intersection_branch": "pzp",
+    "surface_intersection_points": "pzzp", "surface_intersection_contact": "pzp", "surface_intersection_overlap": "pzp",
+    "surface_intersection_undecided": "pzp", "surface_intersection_curves": "pppzdzppp",
 }
 _OTHER = {
     "last_error": ("", c_char_p), "status_name": ("i", c_char_p), "version": ("", c_uint32), "abi_version": ("", c_uint32),
     "query_options_init": ("pz", None), "extrema_options_init": ("pz", None),
     "weights_options_init": ("pz", None), "weights_report_free": ("p", None), "curve_free": ("p", None),
     "surface_free": ("p", None), "foot_set_free": ("p", None), "scene_free": ("p", None),
+    "intersect_surfaces_options_init": ("pz", None), "surface_intersection_free": ("p", None),
 }
 PROTOTYPES = {name: (letters, c_int32) for name, letters in _STATUS.items()} | _OTHER
 

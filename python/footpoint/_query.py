@@ -189,7 +189,7 @@ class Call:
         self.struct = struct_type()
         lib.functions[init](ctypes.addressof(self.struct), ctypes.sizeof(self.struct))
         self._hints: np.ndarray | None = None
-        for name in ("tolerance", "accuracy", "radius", "weight_min", "weight_max", "ratio_limit"):
+        for name in ("tolerance", "accuracy", "radius", "weight_min", "weight_max", "ratio_limit", "chord"):
             if name in options:
                 setattr(self.struct, name, real(name, options[name]))
         for name, most in _INTEGERS.items():
@@ -309,8 +309,24 @@ class WeightsOptions(TypedDict, total=False):
     should_stop: "Callable[[], object] | None"
 
 
+class IntersectSurfacesOptions(TypedDict, total=False):
+    """The keywords of `intersect_surfaces`.
+
+    chord        length: how far a branch may be from the chord between two of its points; 0: 1e-3 x the size of the smaller surface
+    budget       most pairs of parts; 0: 2,000,000
+    should_stop  called without arguments now and then; a true result ends the call with `Cancelled`
+    progress     called with (judged, judged or waiting); True: a bar
+    """
+
+    chord: float
+    budget: int
+    should_stop: "Callable[[], object] | None"
+    progress: "Callable[[int, int], object] | bool | None"
+
+
 _OPTIONS: dict[Any, tuple[str, Any]] = {
     lib.QueryOptions: ("query_options_init", QueryOptions), lib.ExtremaOptions: ("extrema_options_init", ExtremaOptions),
-    lib.WeightsOptions: ("weights_options_init", WeightsOptions)}
+    lib.WeightsOptions: ("weights_options_init", WeightsOptions),
+    lib.IntersectSurfacesOptions: ("intersect_surfaces_options_init", IntersectSurfacesOptions)}
 _INTEGERS = {"method": 2**32 - 1, "scope": 2**32 - 1, "threads": 2**32 - 1, "budget": 2**64 - 1, "nearest": 2**63 - 1, "steps": 2**32 - 1,
              "starts": 2**32 - 1, "seed": 2**64 - 1}

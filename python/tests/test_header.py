@@ -58,7 +58,8 @@ def test_structs():
                                           (footpoint.Scope, "FPT_SCOPE_"), (footpoint.Kind, "FPT_MEMBER_"),
                                           (footpoint.Nature, "FPT_NATURE_"), (weights.State, "FPT_WISH_"),
                                           (weights.WeightFlag, "FPT_WEIGHT_"), (weights.ConstraintKind, "FPT_CONSTRAINT_"),
-                                          (weights.Unit, "FPT_UNIT_")])
+                                          (weights.Unit, "FPT_UNIT_"), (footpoint.BranchEnd, "FPT_BRANCH_END_"),
+                                          (footpoint.ContactKind, "FPT_CONTACT_")])
 def test_enums(enum: type[Enum], prefix):
     listed = {name: int(value) for name, value in re.findall(rf"^\s*{prefix}(\w+) = (\d+),", HEADER, re.M)}
     assert listed == {name: int(member) for name, member in enum.__members__.items()}
@@ -111,8 +112,17 @@ def test_every_function_is_reached(monkeypatch):
     weights.move_point(arch, 0.5, 1, 0.1), weights.through_point(arch, 1, [1, 1.5, 0]), weights.conic(arch.poles, [1, 1, 1])
     weights.of_rho(0.5), weights.of_eccentricity(arch.poles, 1), weights.normalise([1, 2]), weights.bound([1, 2], 1.5)
     weights.standard_form(arch), weights.positive_form(1, [0, 0, 1, 1], [[0, 0, 0, 1], [1, 0, 0, 1]])
+    flat = footpoint.Surface.from_poles(1, 1, [[[-9, -9, 0.5], [-9, 9, 0.5]], [[9, -9, 0.5], [9, 9, 0.5]]])
+    met = footpoint.intersect_surfaces(surface, flat)
+    assert len(met.branches) == 1 and met.is_proven and len(met.curves(0, 1e-4)) >= 1
+    assert len(footpoint.intersect_surfaces(flat, flat).overlaps)
+    ball = footpoint.Surface.from_poles(2, 2, [[[i - 1, j - 1, 0.5 - (i - 1) ** 2 - (j - 1) ** 2 + (i % 2 + j % 2)] for j in range(3)] for i in range(3)])
+    assert repr(footpoint.intersect_surfaces(ball, flat))
+    with pytest.raises(Exception):
+        met._contact(99)
+    assert len(footpoint.intersect_surfaces(surface, flat, budget=2).undecided)
     footpoint.version(), footpoint.abi_version()
     with pytest.raises(RuntimeError, match="FPT_INTERNAL"):
         raise _library.failure(_library.INTERNAL)
-    del curve, surface, shape, scene, query
+    del curve, surface, shape, scene, query, met
     assert set(_library.PROTOTYPES) - reached == set()
