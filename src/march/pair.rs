@@ -343,33 +343,30 @@ impl Arc {
         let at = [0.0, 0.25, 0.5, 0.75, 1.0].map(|s| outside(self, low + s * (high - low)));
         let (least, greatest) =
             at.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
-        if monotone || greatest <= slack {
-            if greatest <= slack {
-                if !monotone && greatest > -slack && least < -4.0 * slack {
-                    // It touches the side: whether it crosses is not known.
-                    return Clip::Unclear;
-                }
-                return Clip::Kept(*ends);
-            }
-            if least > slack {
-                return Clip::Outside;
-            }
-            let rising = at[4] > at[0];
-            let cut = crossing(|x| outside(self, x), low, high);
-            if rising {
-                self.x[1] = cut;
-                ends[1] = Some(side);
-            } else {
-                self.x[0] = cut;
-                ends[0] = Some(side);
-            }
-            return if self.x[0] > self.x[1] { Clip::Outside } else { Clip::Kept(*ends) };
+        if !monotone {
+            // Between two samples it moves at most by its slope times an eighth of the interval.
+            let bulge = 0.25 * self.spread * (high - low) * self.half[q];
+            let along = greatest <= slack && least >= -4.0 * slack;
+            return match (greatest < -bulge, least > slack + bulge) {
+                (true, _) => Clip::Kept(*ends),
+                (_, true) => Clip::Outside,
+                // It lies on the side, as far as rounding can tell.
+                _ if along => Clip::Kept(*ends),
+                _ => Clip::Unclear,
+            };
         }
-        let bulge = 2.0 * self.spread * (high - low) * self.half[q];
-        if greatest < -bulge {
+        if greatest <= slack {
             return Clip::Kept(*ends);
         }
-        if least > slack + bulge { Clip::Outside } else { Clip::Unclear }
+        if least > slack {
+            return Clip::Outside;
+        }
+        let rising = at[4] > at[0];
+        let cut = crossing(|x| outside(self, x), low, high);
+        let high_end = usize::from(rising);
+        self.x[high_end] = cut;
+        ends[high_end] = Some(side);
+        if self.x[0] > self.x[1] { Clip::Outside } else { Clip::Kept(*ends) }
     }
 }
 
