@@ -39,10 +39,15 @@
 #include <BRep_Tool.hxx>
 #include <Extrema_ExtAlgo.hxx>
 #include <Extrema_ExtFlag.hxx>
+#include <Geom_BSplineCurve.hxx>
+#include <Precision.hxx>
 #include <ShapeAnalysis_Surface.hxx>
 #include <Standard_NullObject.hxx>
 #include <Standard_OutOfRange.hxx>
 #include <StdFail_NotDone.hxx>
+#include <TColStd_Array1OfInteger.hxx>
+#include <TColStd_Array1OfReal.hxx>
+#include <TColgp_Array1OfPnt.hxx>
 #include <TopLoc_Location.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
@@ -663,6 +668,80 @@ private:
 
     surface shape_;
     foot last_;
+};
+
+/**
+ * The class of this name: the curves that two bounded surfaces have in common, as B-splines within the tolerance. IsDone is false
+ * when the budget ran out or something is left undecided: nothing is lost silently. Unbounded surfaces (planes, cylinders of
+ * infinite length) must be trimmed, offsets of free forms are refused (Standard_ConstructionError). Contacts in points and areas
+ * are in Intersection().
+ */
+class GeomAPI_IntSS {
+public:
+    GeomAPI_IntSS() = default;
+    GeomAPI_IntSS(const Handle(Geom_Surface) &S1, const Handle(Geom_Surface) &S2, const Standard_Real Tol) { Perform(S1, S2, Tol); }
+
+    void Perform(const Handle(Geom_Surface) &S1, const Handle(Geom_Surface) &S2, const Standard_Real Tol) {
+        lines_.clear();
+        found_.reset();
+        const footpoint::surface a = bounded(S1, "S1"), b = bounded(S2, "S2");
+        found_ = std::make_unique<surface_intersection>(a, b);
+        for (std::size_t i = 0; i < found_->size(); i++) {
+            for (std::size_t part = 0, count = 1; part < count; part++) {
+                const branch_curves curves = found_->curves(a, b, i, Tol > 0 ? Tol : Precision::Confusion(), part);
+                lines_.push_back(spline(curves.space));
+                count = curves.part_count;
+            }
+        }
+    }
+
+    Standard_Boolean IsDone() const { return found_ && !found_->summary().is_exhausted && !found_->summary().undecided_count; }
+    Standard_Integer NbLines() const {
+        if (!found_) throw StdFail_NotDone("GeomAPI_IntSS: not performed");
+        return Standard_Integer(lines_.size());
+    }
+    const Handle(Geom_Curve) &Line(const Standard_Integer Index) const {
+        if (Index < 1 || Index > NbLines()) throw Standard_OutOfRange("Index: beyond NbLines");
+        return lines_[std::size_t(Index) - 1];
+    }
+    /** Branches with parameters, contacts, overlaps, and whether all is proven. */
+    const surface_intersection &Intersection() const {
+        if (!found_) throw StdFail_NotDone("GeomAPI_IntSS: not performed");
+        return *found_;
+    }
+
+private:
+    static footpoint::surface bounded(const Handle(Geom_Surface) &shape, const char *name) {
+        if (shape.IsNull()) throw Standard_NullObject((std::string(name) + ": null").c_str());
+        detail::range u{}, v{};
+        shape->Bounds(u.low, u.high, v.low, v.high);
+        if (detail::open(u.low) || detail::open(u.high) || detail::open(v.low) || detail::open(v.high))
+            detail::refuse(std::string(name) + ": is unbounded; trim it");
+        const auto net = detail::net_of(detail::plain(detail::basis(shape)), u, v);
+        if (!net) detail::refuse(std::string(name) + ": has no form with poles");
+        return detail::made(*net, gp_Trsf());
+    }
+
+    static Handle(Geom_Curve) spline(const footpoint::curve &curve) {
+        const std::vector<double> knots = curve.knots(), poles = curve.poles();
+        TColgp_Array1OfPnt points(1, Standard_Integer(poles.size() / 3));
+        for (std::size_t i = 0; i < poles.size() / 3; i++)
+            points.SetValue(Standard_Integer(i) + 1, gp_Pnt(poles[3 * i], poles[3 * i + 1], poles[3 * i + 2]));
+        std::vector<double> values;
+        std::vector<int> times;
+        for (const double k : knots) {
+            if (!values.empty() && values.back() == k) times.back()++;
+            else values.push_back(k), times.push_back(1);
+        }
+        TColStd_Array1OfReal places(1, Standard_Integer(values.size()));
+        TColStd_Array1OfInteger repeats(1, Standard_Integer(values.size()));
+        for (std::size_t i = 0; i < values.size(); i++)
+            places.SetValue(Standard_Integer(i) + 1, values[i]), repeats.SetValue(Standard_Integer(i) + 1, times[i]);
+        return new Geom_BSplineCurve(points, places, repeats, Standard_Integer(curve.degree()));
+    }
+
+    std::unique_ptr<surface_intersection> found_;
+    std::vector<Handle(Geom_Curve)> lines_;
 };
 
 } // namespace footpoint::occt
