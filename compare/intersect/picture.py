@@ -40,7 +40,7 @@ def polyline(points: np.ndarray, style: str) -> str:
 def space(surfaces, branches) -> list[str]:
     lines, out = [], []
     for surface, colour in zip(surfaces, ("#7a8fb0", "#b08f6a")):
-        u0, u1, v0, v1 = surface.domain
+        (u0, u1), (v0, v1) = surface.domain
         for k in range(25):
             u, v = u0 + (u1 - u0) * k / 24, v0 + (v1 - v0) * k / 24
             t = np.linspace(0, 1, 80)
@@ -56,7 +56,7 @@ def space(surfaces, branches) -> list[str]:
 
 
 def domain(surface, branches, field: str, shift: float, name: str) -> list[str]:
-    u0, u1, v0, v1 = surface.domain
+    (u0, u1), (v0, v1) = surface.domain
     out = [f'<g transform="translate({shift},0)"><rect x="10" y="10" width="{SIZE - 60}" height="{SIZE - 60}" fill="#fafafa" stroke="#888"/>',
            f'<text x="{(SIZE - 40) / 2}" y="{SIZE - 30}" font-size="14" text-anchor="middle">{name}</text>']
     for branch, colour in branches:

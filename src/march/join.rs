@@ -224,7 +224,7 @@ impl<'a, 'b> Joiner<'a, 'b> {
             if !steps.is_empty() {
                 // Has the walk come back to where it began?
                 if let Some(&(_, home)) =
-                    self.on(origin).iter().find(|&&(j, home)| j == k && sign * (home - x) > -1e-9)
+                    homes.iter().find(|&&(j, home)| j == k && sign * (home - x) > -1e-9)
                 {
                     steps.push(Step { arc: k, from: x, to: home, jump });
                     return (steps, Stop::Closed);
@@ -324,6 +324,10 @@ impl<'a, 'b> Joiner<'a, 'b> {
         let near = |found: &Solution| {
             distance_to_chord(found.place.x, from.1.place.x, to.1.place.x) <= 0.5 * self.chord
         };
+        // An arc turns by less than a right angle: one that is shorter than twice the tolerance cannot leave its chord by more.
+        if norm(sub(to.1.place.x, from.1.place.x)) <= self.chord {
+            return;
+        }
         let middle = solve(0.5);
         if depth >= MOST_HALVINGS
             || (near(&middle) && [0.25, 0.75].iter().all(|&s| near(&solve(s))))

@@ -203,7 +203,7 @@ impl<'a> Search<'a> {
             let why = if level < 2 && self.coincide(a, b) { Open::Area } else { Open::Flat };
             return self.leave((i, j), why);
         }
-        if level >= LEVEL_OF_AREAS && level.is_multiple_of(2) && parallel(a, b) {
+        if level >= LEVEL_OF_AREAS && level.is_multiple_of(4) && parallel(a, b) {
             if let Some(why) = self.touching(a, b, level) {
                 return self.leave((i, j), why);
             }
@@ -271,7 +271,7 @@ impl<'a> Search<'a> {
         if self.coincide(a, b) {
             return Some(Open::Area);
         }
-        if level < LEVEL_OF_CURVES || !level.is_multiple_of(4) {
+        if level < LEVEL_OF_CURVES {
             return None;
         }
         let (sa, sb) = (self.surfaces[0], self.surfaces[1]);
