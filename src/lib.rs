@@ -55,6 +55,8 @@ pub mod weights;
 
 pub mod elementary;
 
+pub mod transform;
+
 pub mod pcurve;
 
 pub mod trim;

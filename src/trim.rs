@@ -30,7 +30,8 @@ use crate::curve::Curve;
 use crate::elementary::ElementarySurface;
 use crate::error::Error;
 use crate::index::{IndexedCurve, IndexedSurface};
-use crate::pcurve::{Direction, Parameters, Pcurve, between};
+use crate::pcurve::{Direction, Parameters, Pcurve};
+use crate::transform::between;
 
 /// The surface under a face.
 #[derive(Clone, Debug)]
