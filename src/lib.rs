@@ -53,6 +53,8 @@ pub mod batch;
 
 pub mod weights;
 
+pub mod fit;
+
 pub mod elementary;
 
 pub mod transform;
