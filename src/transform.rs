@@ -254,28 +254,46 @@ impl Relation {
         (self.to[1] - self.to[0]) / (self.from[1] - self.from[0])
     }
 
-    /// The places in the domain at which it may have a break in its derivatives.
-    pub fn breaks(&self) -> Vec<f64> {
-        let [a, b] = self.from;
-        let mut found = match &self.form {
-            Form::Angle(circle) => circle.breaks().map(|x| between(a, b, x)).collect(),
-            Form::Parameter(circle) => circle.breaks().map(|x| between(a, b, x)).collect(),
-            Form::Piecewise(pieces) => pieces
-                .iter()
-                .flat_map(|piece| piece.breaks().into_iter().chain([piece.from[1]]))
-                .collect(),
+    /// The places inside the domain at which its first derivative may jump.
+    pub fn kinks(&self) -> Vec<f64> {
+        match &self.form {
+            Form::Piecewise(pieces) => {
+                let joints = pieces[1..].iter().map(|piece| piece.from[0]);
+                joints.chain(pieces.iter().flat_map(Self::kinks)).collect()
+            }
             Form::Chain(links) => {
                 let back = links[0].inverse();
-                let mut found = links[0].breaks();
-                found.extend(links[1].breaks().into_iter().map(|y| back.apply(y)));
-                found
+                let after = links[1].kinks().into_iter().map(|y| back.apply(y));
+                after.chain(links[0].kinks()).collect()
             }
-            Form::Linear | Form::Function { .. } => Vec::new(),
-        };
-        found.retain(|x: &f64| a < *x && *x < b);
-        found.sort_by(f64::total_cmp);
-        found.dedup();
-        found
+            _ => Vec::new(),
+        }
+    }
+
+    /// Bounds of the absolute values of its first and second derivative between its kinks; none where a function is part of it.
+    pub fn derivative_bounds(&self) -> Option<[f64; 2]> {
+        let ([a, b], [c, d]) = (self.from, self.to);
+        let (length, ratio) = (b - a, ((d - c) / (b - a)).abs());
+        match &self.form {
+            Form::Linear => Some([ratio, 0.0]),
+            Form::Angle(circle) => {
+                let [first, second] = circle.angle_bounds();
+                Some([ratio * first, ratio / length * second])
+            }
+            Form::Parameter(circle) => {
+                let [first, second] = circle.parameter_bounds();
+                Some([ratio * first, ratio / length * second])
+            }
+            Form::Piecewise(pieces) => pieces.iter().try_fold([0.0f64; 2], |most, piece| {
+                let [first, second] = piece.derivative_bounds()?;
+                Some([most[0].max(first), most[1].max(second)])
+            }),
+            Form::Chain(links) => links.iter().try_fold([1.0, 0.0], |[first, second], link| {
+                let [f, g] = link.derivative_bounds()?;
+                Some([f * first, g * first * first + f * second])
+            }),
+            Form::Function { .. } => None,
+        }
     }
 
     /// The value at `x`. Linear relations are continued outside of the domain, others give the value at its end.

@@ -22,6 +22,10 @@
 //! A trimmed surface never changes. That its references are right is checked when it is made; whether its loops are closed,
 //! directed, and disjoint, and how far pcurves are from edges, is what a report tells.
 
+mod speed;
+
+mod change;
+
 use std::sync::{Arc, OnceLock};
 
 use crate::bounds::{Aabb, Vector};
@@ -32,6 +36,8 @@ use crate::error::Error;
 use crate::index::{IndexedCurve, IndexedSurface};
 use crate::pcurve::{Direction, Parameters, Pcurve};
 use crate::transform::between;
+
+pub use change::{ChangeOptions, Changed, DEFAULT_TOLERANCE, MOST_VERTICES, Replacement};
 
 /// The surface under a face.
 #[derive(Clone, Debug)]

@@ -36,12 +36,6 @@ impl Circle {
         Ok(Self { pieces, cos, sin, half })
     }
 
-    /// Shares of the whole at which two pieces meet; the same for parameters and angles.
-    pub fn breaks(&self) -> impl Iterator<Item = f64> + use<> {
-        let n = self.pieces;
-        (1..n).map(move |k| k as f64 / n as f64)
-    }
-
     /// From a share of the parameters to a share of the angles.
     pub fn angle(&self, share: Share) -> Share {
         self.by_pieces(share, |s| (s * self.sin).atan2((1.0 - s) + s * self.cos) / self.half)
@@ -53,6 +47,20 @@ impl Circle {
             let tan = (w * self.half).tan();
             tan / (self.sin + tan * (1.0 - self.cos))
         })
+    }
+
+    /// Bounds of the first and second derivative of [`Self::angle`]; the second one jumps where pieces meet. With `q = 1 - 2 (1 - cos h) s (1 - s)` on
+    /// a piece, from `(1 + cos h) / 2` to 1, the first one is `sin h / (h q)`.
+    pub fn angle_bounds(&self) -> [f64; 2] {
+        let least = (1.0 + self.cos) / 2.0;
+        let first = self.sin / (self.half * least);
+        [first, self.pieces as f64 * 2.0 * (1.0 - self.cos) * first / least]
+    }
+
+    /// The same of [`Self::parameter`], the inverse function: first `h q / sin h`, second `h^2 q q' / sin^2 h`.
+    pub fn parameter_bounds(&self) -> [f64; 2] {
+        let first = self.half / self.sin;
+        [first, self.pieces as f64 * 2.0 * (1.0 - self.cos) * first * first]
     }
 
     /// Applies the function of half a piece, [0, 1/2] to itself, to a share of the whole.
