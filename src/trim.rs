@@ -26,9 +26,19 @@ mod speed;
 
 mod change;
 
+mod convert;
+
+mod invert;
+
+mod matching;
+
+mod flat;
+
+mod report;
+
 use std::sync::{Arc, OnceLock};
 
-use crate::bounds::{Aabb, Vector};
+use crate::bounds::{Aabb, Vector, norm, sub};
 use crate::callback::{CallbackCurve, CallbackSurface};
 use crate::curve::Curve;
 use crate::elementary::ElementarySurface;
@@ -38,6 +48,9 @@ use crate::pcurve::{Direction, Parameters, Pcurve};
 use crate::transform::between;
 
 pub use change::{ChangeOptions, Changed, DEFAULT_TOLERANCE, MOST_VERTICES, Replacement};
+pub use convert::form_transform;
+pub use matching::Matching;
+pub use report::{Finding, GAP_SAMPLES, Place, REPORT_TOLERANCE, Report};
 
 /// The surface under a face.
 #[derive(Clone, Debug)]
@@ -471,7 +484,6 @@ fn invalid<T>(text: String) -> Result<T, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bounds::{norm, sub};
     use crate::elementary::{Axes, Elementary};
     use std::f64::consts::{FRAC_PI_2, TAU};
 
