@@ -36,6 +36,14 @@ mod flat;
 
 mod report;
 
+mod dump;
+
+mod picture;
+
+mod merge;
+
+mod follow;
+
 use std::sync::{Arc, OnceLock};
 
 use crate::bounds::{Aabb, Vector, norm, sub};
@@ -50,6 +58,7 @@ use crate::transform::between;
 pub use change::{ChangeOptions, Changed, DEFAULT_TOLERANCE, MOST_VERTICES, Replacement};
 pub use convert::form_transform;
 pub use matching::Matching;
+pub use picture::{MOST_COLUMNS, picture};
 pub use report::{Finding, GAP_SAMPLES, Place, REPORT_TOLERANCE, Report};
 
 /// The surface under a face.

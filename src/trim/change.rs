@@ -27,7 +27,7 @@ use crate::bounds::{norm, sub};
 use crate::error::Error;
 use crate::fit::{Adaptive, of_function};
 use crate::pcurve::{Parameters, Pcurve};
-use crate::transform::{Transform, between};
+use crate::transform::{Relation, Transform, between};
 
 /// Default tolerance as a share of the diagonal of the surface's box.
 pub const DEFAULT_TOLERANCE: f64 = 1e-7;
@@ -41,6 +41,9 @@ const GRID: usize = 9;
 /// Where deviations are only measured: samples in an interval, and how far beyond them it may be.
 const SAMPLES: usize = 5;
 const SAFETY: f64 = 1.5;
+
+/// Halvings after which bounds of derivatives are no longer made tighter.
+const LEVELS: usize = 6;
 
 /// Times that a fit is made tighter until its error is proven.
 const ATTEMPTS: usize = 8;
@@ -105,6 +108,8 @@ impl TrimmedSurface {
             to: &support,
             transform,
             speeds: speeds(&support)?,
+            bounds: [&transform.u, &transform.v].map(Relation::derivative_bounds),
+            kinks: [&transform.u, &transform.v].map(Relation::kinks),
             tolerance,
             replacement: options.replacement,
         };
@@ -132,7 +137,7 @@ impl TrimmedSurface {
 }
 
 /// The loop run through backwards.
-fn reverse(chain: &mut Loop) {
+pub(super) fn reverse(chain: &mut Loop) {
     chain.coedges.reverse();
     for coedge in &mut chain.coedges {
         coedge.pcurve = coedge.pcurve.reversed();
@@ -197,6 +202,9 @@ struct Mapper<'a> {
     transform: &'a Transform,
     /// Bounds of |Ss| and |St| of the new surface.
     speeds: Option<[f64; 2]>,
+    /// Bounds of the derivatives of both relations, and where they have kinks.
+    bounds: [Option<[f64; 2]>; 2],
+    kinks: [Vec<f64>; 2],
     tolerance: f64,
     replacement: Replacement,
 }
@@ -234,20 +242,25 @@ impl Mapper<'_> {
         self.transform.apply(self.from.clamped(pcurve.evaluate(t)))
     }
 
-    /// Bounds of the derivatives of the mapped curve on a part without corners: first order, and second order unless a kink of the
-    /// transform may lie inside. None where a function is in the way.
-    fn mapped_motion(&self, pcurve: &Pcurve, range: [f64; 2]) -> Option<(Motion, bool)> {
-        let old = motion(pcurve, range);
-        let relations = [&self.transform.u, &self.transform.v];
+    /// Bounds of the derivatives of the mapped curve on a part without corners where the curve itself moves as `old`, and whether no
+    /// kink of the transform lies inside. None where a function is in the way.
+    fn mapped_motion(
+        &self,
+        pcurve: &Pcurve,
+        old: &Motion,
+        range: [f64; 2],
+    ) -> Option<(Motion, bool)> {
         let mut new = Motion::default();
         let mut smooth = true;
         for k in 0..2 {
-            let [f1, f2] = relations[k].derivative_bounds()?;
+            let [f1, f2] = self.bounds[k]?;
             new.first[k] = f1 * old.first[k];
             new.second[k] = f2 * old.first[k] * old.first[k] + f1 * old.second[k];
-            let middle = pcurve.evaluate(range[0] + 0.5 * (range[1] - range[0]))[k];
-            let reach = 0.5 * (range[1] - range[0]) * old.first[k] * (1.0 + 1e-9);
-            smooth &= !relations[k].kinks().iter().any(|x| (x - middle).abs() <= reach);
+            if !self.kinks[k].is_empty() {
+                let middle = pcurve.evaluate(range[0] + 0.5 * (range[1] - range[0]))[k];
+                let reach = 0.5 * (range[1] - range[0]) * old.first[k] * (1.0 + 1e-9);
+                smooth &= !self.kinks[k].iter().any(|x| (x - middle).abs() <= reach);
+            }
         }
         if self.transform.swap {
             new.first.swap(0, 1);
@@ -256,23 +269,24 @@ impl Mapper<'_> {
         Some((new, smooth))
     }
 
-    /// A bound in space of the difference of the mapped curve and a replacement, which moves as `other` and misses it at the ends of
-    /// the range by `off`.
+    /// A bound in space of the difference of the mapped curve and a replacement, which miss each other at the ends of the range by
+    /// `off`; `moves` has the motions of the curve itself and of the replacement.
     fn bound(
         &self,
         pcurve: &Pcurve,
         range: [f64; 2],
-        other: &Motion,
+        moves: [&Motion; 2],
         off: [f64; 2],
     ) -> Option<f64> {
         let speeds = self.speeds?;
-        let (own, smooth) = self.mapped_motion(pcurve, range)?;
-        let h = range[1] - range[0];
+        let (own, smooth) = self.mapped_motion(pcurve, moves[0], range)?;
+        let (h, other) = (range[1] - range[0], moves[1]);
         let bound = |k: usize| {
             let between = if smooth {
                 h * h / 8.0 * (own.second[k] + other.second[k])
             } else {
-                h / 2.0 * (own.first[k] + other.first[k])
+                // Both move by the straight line's share from each end.
+                h / 2.0 * (own.first[k] + own.first[k].max(other.first[k]))
             };
             speeds[k] * (off[k] + between)
         };
@@ -294,7 +308,8 @@ impl Mapper<'_> {
     /// Whether bounds exist at all for this curve.
     fn is_provable(&self, pcurve: &Pcurve) -> bool {
         let (a, b) = pcurve.domain();
-        self.speeds.is_some() && self.mapped_motion(pcurve, [a, b]).is_some()
+        let none = Motion::default();
+        self.speeds.is_some() && self.mapped_motion(pcurve, &none, [a, b]).is_some()
     }
 
     /// The intervals between the corners of a curve, in order, the last one first.
@@ -306,16 +321,16 @@ impl Mapper<'_> {
 
     fn polyline(&self, pcurve: &Pcurve) -> Result<Image, Error> {
         let proven = self.is_provable(pcurve);
-        let mut waiting: Vec<([f64; 2], usize)> =
-            Self::ranges(pcurve).into_iter().map(|range| (range, 0)).collect();
+        let mut waiting: Vec<([f64; 2], usize, Motion)> =
+            Self::ranges(pcurve).into_iter().map(|range| (range, 0, Motion::default())).collect();
         let (a, _) = pcurve.domain();
         let (mut parameters, mut points) = (vec![a], vec![self.place(pcurve, a)]);
         let mut deviation: f64 = 0.0;
-        while let Some((range, depth)) = waiting.pop() {
+        while let Some((range, depth, above)) = waiting.pop() {
             let [p, q] = range.map(|t| self.place(pcurve, t));
             let h = range[1] - range[0];
-            let still = Motion::default();
-            let off = match self.bound(pcurve, range, &still, [0.0; 2]) {
+            let own = if depth < LEVELS { motion(pcurve, range) } else { above };
+            let off = match self.bound(pcurve, range, [&own, &Motion::default()], [0.0; 2]) {
                 Some(bound) => bound,
                 // Enough pieces before samples may decide.
                 None if depth < 3 && !matches!(pcurve, Pcurve::Polyline(_)) => f64::INFINITY,
@@ -339,8 +354,8 @@ impl Mapper<'_> {
                     self.tolerance
                 )));
             }
-            waiting.push(([middle, range[1]], depth + 1));
-            waiting.push(([range[0], middle], depth + 1));
+            waiting.push(([middle, range[1]], depth + 1, own));
+            waiting.push(([range[0], middle], depth + 1, own));
         }
         let pcurve = Pcurve::polyline_at(&parameters, &points)?;
         Ok(Image { pcurve, deviation, proven, same_parameter: true })
@@ -379,16 +394,20 @@ impl Mapper<'_> {
         }
         places.sort_by(f64::total_cmp);
         places.dedup();
-        let mut waiting: Vec<[f64; 2]> = places.windows(2).map(|w| [w[0], w[1]]).collect();
+        let mut waiting: Vec<([f64; 2], [Motion; 2])> = places
+            .windows(2)
+            .map(|w| [w[0], w[1]])
+            .map(|range| (range, [motion(pcurve, range), motion(new, range)]))
+            .collect();
         let (mut deviation, mut count) = (0.0f64, 0);
-        while let Some(range) = waiting.pop() {
+        while let Some((range, moves)) = waiting.pop() {
             let mut off = [0.0f64; 2];
             for t in range {
                 let (p, q) = (self.place(pcurve, t), new.evaluate(t));
                 (0..2).for_each(|k| off[k] = off[k].max((p[k] - q[k]).abs()));
             }
             let bound = self
-                .bound(pcurve, range, &motion(new, range), off)
+                .bound(pcurve, range, [&moves[0], &moves[1]], off)
                 .unwrap_or_else(|| self.measured(pcurve, range, |t| new.evaluate(t)));
             let at_ends = self.speeds.map_or(0.0, |s| s[0] * off[0] + s[1] * off[1]);
             count += 1;
@@ -403,7 +422,7 @@ impl Mapper<'_> {
             if !(range[0] < middle && middle < range[1]) {
                 return None;
             }
-            waiting.extend([[range[0], middle], [middle, range[1]]]);
+            waiting.extend([([range[0], middle], moves), ([middle, range[1]], moves)]);
         }
         Some(deviation)
     }

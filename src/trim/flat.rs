@@ -12,6 +12,9 @@ use crate::transform::between;
 /// Most segments of one curve; with more to do the error stays above what was asked for.
 const MOST_SEGMENTS: usize = 1 << 15;
 
+/// Halvings after which bounds of bends are no longer made tighter.
+const LEVELS: usize = 6;
+
 /// Segments below one box of the pair search.
 const LEAF: usize = 4;
 
@@ -66,15 +69,17 @@ impl Flat {
         let (a, b) = pcurve.domain();
         let places = [vec![a], pcurve.breaks(), vec![b]].concat();
         let (mut parameters, mut worst) = (vec![a], 0.0f64);
-        let mut waiting: Vec<[f64; 2]> = places.windows(2).rev().map(|w| [w[0], w[1]]).collect();
-        while let Some([from, to]) = waiting.pop() {
-            let bend = motion(pcurve, [from, to]).second;
+        let mut waiting: Vec<([f64; 2], usize, [f64; 2])> =
+            places.windows(2).rev().map(|w| ([w[0], w[1]], 0, [0.0; 2])).collect();
+        while let Some(([from, to], depth, above)) = waiting.pop() {
+            let bend = if depth < LEVELS { motion(pcurve, [from, to]).second } else { above };
             let h = to - from;
             let off = h * h / 8.0 * (scale.speeds[0] * bend[0]).hypot(scale.speeds[1] * bend[1]);
             let middle = from + 0.5 * h;
             let room = parameters.len() + waiting.len() < MOST_SEGMENTS;
             if off > error && room && from < middle && middle < to {
-                waiting.extend([[middle, to], [from, middle]]);
+                waiting.push(([middle, to], depth + 1, bend));
+                waiting.push(([from, middle], depth + 1, bend));
                 continue;
             }
             worst = worst.max(off);

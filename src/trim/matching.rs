@@ -6,7 +6,8 @@
 //!
 //! ```text
 //!   u at an end of the domain       s is that end (the other one when f falls)
-//!   otherwise                       s of the inversion of S(u, v_m); on the seam of the target, the side that u is on
+//!   otherwise                       s of the inversion of S(u, v_m), polished along the target's isoline; beside a seam of the
+//!                                   target, on the side that u is on
 //!   the same for v with S(u_m, v)
 //! ```
 //!
@@ -21,13 +22,16 @@ use std::sync::Arc;
 
 use super::{Support, invalid};
 use crate::batch;
-use crate::bounds::{Vector, norm, sub};
+use crate::bounds::{Vector, dot, norm, sub};
 use crate::closest::{FootPoint, QueryOptions, Workspace, flag};
 use crate::error::Error;
 use crate::transform::{Function, Relation, Transform, between};
 
-/// A point nearer to the seam than this share of the surface's diagonal is on it: a few times the rounding of points.
-const SEAM_TOLERANCE: f64 = 1e-14;
+/// Share of the domain beside a seam where an inversion may tell the wrong side.
+const BESIDE: f64 = 1e-6;
+
+/// Most Newton steps after an inversion, which stops at a border that is nearer than its accuracy.
+const STEPS: usize = 8;
 
 /// Default tolerance as a share of the diagonal.
 const DEFAULT_TOLERANCE: f64 = 1e-7;
@@ -43,9 +47,10 @@ pub struct Matching {
     to: Support,
     /// u and v of the isolines that tell g and f.
     middle: [f64; 2],
+    /// Their images, once they are known.
+    image_middle: Option<[f64; 2]>,
     rising: [bool; 2],
     tolerance: f64,
-    diagonal: f64,
     closed: [bool; 2],
 }
 
@@ -68,8 +73,12 @@ impl Matching {
         let middle = [middle_of(&from, 0)?, middle_of(&from, 1)?];
         let closed = to.closed();
         let mut matching =
-            Self { from, to, middle, rising: [true; 2], tolerance, diagonal, closed };
+            Self { from, to, middle, image_middle: None, rising: [true; 2], tolerance, closed };
         matching.rising = [matching.find_direction(0)?, matching.find_direction(1)?];
+        let workspace = &mut Workspace::default();
+        let images =
+            [0, 1].map(|k| matching.along(k, middle[k], workspace).map_or(f64::NAN, |f| f.0));
+        matching.image_middle = Some(images);
         for direction in 0..2 {
             matching.check_ends(direction)?;
         }
@@ -158,14 +167,45 @@ impl Matching {
         if foot.distance.is_nan() || foot.distance > self.tolerance {
             return None;
         }
-        let proven = foot.flags & flag::NOT_PROVEN == 0;
-        let found = [foot.u, foot.v][direction];
-        let mut seam = [foot.u, foot.v];
-        seam[direction] = c;
-        let on_seam = self.closed[direction]
-            && norm(sub(query, self.to.evaluate(seam))) <= SEAM_TOLERANCE * self.diagonal;
-        let found = if on_seam { if x - a <= b - x { c } else { d } } else { found };
-        Some((found, proven))
+        let mut found = [foot.u, foot.v];
+        // Beside a seam, start on the side that x is on.
+        let (low, high) = (c.min(d), c.max(d));
+        let beside = (found[direction] - low).min(high - found[direction]);
+        if self.closed[direction] && beside <= BESIDE * (high - low) {
+            found[direction] = if x - a <= b - x { c } else { d };
+        }
+        let found = self.polished(direction, query, found);
+        let off = norm(sub(query, self.to.evaluate(found)));
+        let proven = foot.flags & flag::NOT_PROVEN == 0 && off <= self.tolerance;
+        Some((found[direction], proven))
+    }
+
+    /// Newton steps along the target's isoline that the query lies on, as far as the arithmetic goes.
+    fn polished(&self, direction: usize, query: Vector, mut at: [f64; 2]) -> [f64; 2] {
+        let [c, d] = ends(&self.to, direction);
+        if let Some(image) = self.image_middle {
+            at[1 - direction] = image[1 - direction];
+        }
+        let mut best = (norm(sub(query, self.to.evaluate(at))), at);
+        for _ in 0..STEPS {
+            let mut out = [[0.0; 3]; 3];
+            if !self.to.partials(at, 1, &mut out) {
+                break;
+            }
+            let slope = out[1 + direction];
+            let step = dot(sub(query, out[0]), slope) / dot(slope, slope);
+            if !step.is_finite() {
+                break;
+            }
+            at[direction] = (at[direction] + step).max(c).min(d);
+            let off = norm(sub(query, self.to.evaluate(at)));
+            if off < best.0 {
+                best = (off, at);
+            } else {
+                break;
+            }
+        }
+        best.1
     }
 
     /// A point of the isoline that tells the image of this parameter.

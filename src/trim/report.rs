@@ -149,6 +149,24 @@ impl Report {
     }
 }
 
+/// Two segments that meet.
+struct Hit {
+    crossing: bool,
+    distance: f64,
+    at: Parameters,
+    segments: [usize; 2],
+    parameters: [f64; 2],
+}
+
+impl Hit {
+    /// Whether another one is the same contact: at the same place, or a touch that goes on along neighbouring segments.
+    fn continues(&self, next: &Self, near: f64) -> bool {
+        let beside = |k: usize| self.segments[k].abs_diff(next.segments[k]) <= 1;
+        let touch = !self.crossing && !next.crossing && beside(0) && beside(1);
+        touch || far(self.at, next.at) <= near
+    }
+}
+
 struct Checker<'a> {
     face: &'a TrimmedSurface,
     scale: Scale,
@@ -329,7 +347,7 @@ impl Checker<'_> {
         let corners = self.corners(first, second);
         let near = CORNER * contact;
         let wide = near + CORNER_SHARE * a.length.min(b.length);
-        let mut hits: Vec<(bool, f64, [f64; 2])> = Vec::new();
+        let mut hits: Vec<Hit> = Vec::new();
         a.pairs(b, contact, &mut |i, j| {
             if own && (i >= j || (j - i < 2 || a.run(i + 1, j) <= near)) {
                 return;
@@ -346,35 +364,31 @@ impl Checker<'_> {
             }
             let s = between(a.parameters[i], a.parameters[i + 1], shares[0]);
             let t = between(b.parameters[j], b.parameters[j + 1], shares[1]);
-            hits.push((crossing, distance, [s, t]));
+            hits.push(Hit { crossing, distance, at, segments: [i, j], parameters: [s, t] });
         });
-        hits.sort_by(|x, y| x.2[0].total_cmp(&y.2[0]));
-        let place =
-            |at: [usize; 2], parameter: f64| Place { chain: at[0], coedge: at[1], parameter };
-        // Hits that follow each other along both curves are one.
-        let step = |flat: &Flat| {
-            let (x, y) = (flat.parameters[0], flat.parameters[flat.segments()]);
-            4.0 * (y - x) / flat.segments() as f64
-        };
-        let mut before: Option<[f64; 2]> = None;
-        for (crossing, distance, at) in hits {
-            let same = before.is_some_and(|b4| {
-                (at[0] - b4[0]).abs() <= step(a) && (at[1] - b4[1]).abs() <= step(b)
-            });
-            before = Some(at);
-            let (first, second) = (place(first, at[0]), place(second, at[1]));
+        hits.sort_by(|x, y| x.parameters[0].total_cmp(&y.parameters[0]));
+        let mut before: Option<Hit> = None;
+        for hit in hits {
+            let place = |k: usize, at: [usize; 2]| Place {
+                chain: at[0],
+                coedge: at[1],
+                parameter: hit.parameters[k],
+            };
+            let (first, second) = (place(0, first), place(1, second));
+            let same = before.as_ref().is_some_and(|old| old.continues(&hit, near));
             match findings.last_mut() {
                 Some(last) if same => {
-                    if crossing {
+                    if hit.crossing {
                         *last = Finding::Crossing { first, second };
                     }
                 }
-                _ if crossing => findings.push(Finding::Crossing { first, second }),
+                _ if hit.crossing => findings.push(Finding::Crossing { first, second }),
                 _ => {
-                    let distance = 2f64.sqrt() * distance + a.error + b.error;
+                    let distance = 2f64.sqrt() * hit.distance + a.error + b.error;
                     findings.push(Finding::Touching { first, second, distance });
                 }
             }
+            before = Some(hit);
         }
     }
 
@@ -462,7 +476,7 @@ fn from_curve(curve: &EdgeCurve, point: Vector, workspace: &mut Workspace) -> f6
 }
 
 /// Number of turns of a polygon around a place that is not on it.
-fn winding(polygon: &[Parameters], [x, y]: Parameters) -> i32 {
+pub(super) fn winding(polygon: &[Parameters], [x, y]: Parameters) -> i32 {
     let mut turns = 0;
     for k in 0..polygon.len() {
         let (p, q) = (polygon[k], polygon[(k + 1) % polygon.len()]);
