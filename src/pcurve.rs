@@ -19,27 +19,12 @@ use crate::error::Error;
 use crate::knots::{Knots, MAX_MAGNITUDE};
 use crate::transform::between;
 
+pub use crate::operate::Direction;
+
 /// A place in the parameter plane.
 pub type Parameters = [f64; 2];
 
-/// One of the two parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Direction {
-    /// The first one.
-    U,
-    /// The second one.
-    V,
-}
-
 impl Direction {
-    /// 0 for u, 1 for v.
-    pub fn index(self) -> usize {
-        match self {
-            Self::U => 0,
-            Self::V => 1,
-        }
-    }
-
     /// The other one.
     pub fn other(self) -> Self {
         match self {

@@ -1,11 +1,16 @@
 //! Algorithm 2: faces on elementary surfaces by their geometric parameters, and on the NURBS form of the same surface.
 //!
 //! The surface is replaced and the domain goes through the relations of the circle forms, in either direction. Degree elevation and
-//! knot refinement change no parameter: the surface is replaced and the domain stays.
+//! knot refinement change no parameter: the surface is replaced and the domain stays. Reversal, exchange and another domain of a
+//! spline are exact; any other change of parameters makes a surface by a function of the old one.
+
+use std::sync::Arc;
 
 use super::{ChangeOptions, Changed, Support, TrimmedSurface, invalid};
+use crate::callback::{CallbackSurface, SurfaceBounds};
 use crate::elementary::{CircleForm, ElementarySurface};
 use crate::error::Error;
+use crate::operate::Direction;
 use crate::surface::Surface;
 use crate::transform::{Relation, Transform};
 
@@ -69,4 +74,56 @@ impl TrimmedSurface {
         let transform = Transform::identity(self.support().domain())?;
         self.changed(&transform, surface.into(), options)
     }
+
+    /// This face with its surface in the parameters `transform(u, v)`. Under a linear transform a spline, or an elementary surface
+    /// without angles, becomes a spline, exactly; else the new surface is a function of the old one, and nothing is proven.
+    ///
+    /// # Errors
+    /// What [`TrimmedSurface::changed`] refuses.
+    pub fn reparametrised(
+        &self,
+        transform: &Transform,
+        options: &ChangeOptions,
+    ) -> Result<Changed, Error> {
+        if !transform.is_linear() {
+            return self.changed(transform, composed(self.support(), transform)?, options);
+        }
+        match self.support() {
+            Support::Spline(spline) => {
+                let surface = linearly(spline.surface(), transform)?;
+                self.changed(transform, surface.into(), options)
+            }
+            Support::Elementary(elementary) if elementary.surface().angular() == [false; 2] => {
+                let surface = linearly(elementary.form()?.surface(), transform)?;
+                self.changed(transform, surface.into(), options)
+            }
+            other => self.changed(transform, composed(other, transform)?, options),
+        }
+    }
+}
+
+/// A spline in linearly changed parameters.
+fn linearly(surface: &Surface, transform: &Transform) -> Result<Surface, Error> {
+    let mut new = surface.clone();
+    for (direction, relation) in [(Direction::U, &transform.u), (Direction::V, &transform.v)] {
+        if !relation.is_increasing() {
+            new = new.reverse(direction)?;
+        }
+    }
+    let ([u0, u1], [v0, v1]) = (transform.u.image(), transform.v.image());
+    if new.domain() != [u0, u1, v0, v1] {
+        new = new.with_domain([u0, u1, v0, v1])?;
+    }
+    if transform.swap { new.swap() } else { Ok(new) }
+}
+
+/// A surface in other parameters, by a function of the old one.
+fn composed(support: &Support, transform: &Transform) -> Result<Support, Error> {
+    let (old, back) = (support.clone(), transform.inverse());
+    let function = move |s: f64, t: f64, _: usize, out: &mut [crate::bounds::Vector; 6]| {
+        out[0] = old.evaluate(back.apply([s, t]));
+        Some(0)
+    };
+    let made = CallbackSurface::new(transform.image(), SurfaceBounds::default(), function)?;
+    Ok(Support::Callback(Arc::new(made)))
 }
