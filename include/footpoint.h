@@ -3389,7 +3389,7 @@ fpt_status fpt_support_match_many(const struct fpt_support *from,
                                   const double *uv,
                                   size_t count,
                                   uint32_t threads,
-                                  FootPoint *out);
+                                  struct fpt_foot_point *out);
 
 /**
  * Releases a support. NULL is fine.
