@@ -59,7 +59,8 @@ enum Course {
     },
     /// All along a seam of this direction.
     Seam {
-        points: Vec<Parameters>,
+        first: Parameters,
+        last: Parameters,
         direction: usize,
     },
     /// On a collapsed edge: which parameter is free, and the place.
