@@ -5,6 +5,8 @@
 
 pub mod error;
 
+pub mod portable;
+
 pub mod knots;
 
 pub mod basis;
@@ -58,6 +60,8 @@ pub mod operate;
 pub mod fit;
 
 pub mod elementary;
+
+pub mod transform;
 
 pub mod pcurve;
 

@@ -211,6 +211,7 @@ impl<'a, 'b> Joiner<'a, 'b> {
 
     fn walk(&mut self, start: usize, x0: f64, forward: bool) -> (Vec<Step>, Stop) {
         let origin = self.place(&self.search.found[start].arc, x0).at;
+        let homes = self.on(origin);
         self.walks += 1;
         let (mut k, mut x, mut jump) = (start, x0, false);
         let mut steps: Vec<Step> = Vec::new();
