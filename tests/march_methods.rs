@@ -214,3 +214,67 @@ fn curves_of_a_branch_agree_and_fewer_points_keep_the_chord() {
         );
     }
 }
+
+/// A random rational bicubic sheet of 6 x 6 poles with inner knots, one of them double.
+fn random_sheet(seed: &mut u64, tilt: f64) -> Surface {
+    let mut random = || {
+        *seed =
+            seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (*seed >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let (mut poles, mut weights) = (Vec::new(), Vec::new());
+    for k in 0..36 {
+        let (x, y) = ((k / 6) as f64, (k % 6) as f64);
+        poles.push([
+            x + 0.3 * random(),
+            y + 0.3 * random(),
+            2.0 * random() - 1.0 + tilt * (x - 2.5),
+        ]);
+        weights.push(0.5 + random());
+    }
+    let (u, v) =
+        ([0., 0., 0., 0., 0.3, 0.7, 1., 1., 1., 1.], [0., 0., 0., 0., 0.5, 0.5, 1., 1., 1., 1.]);
+    Surface::new(&u, &v, 3, 3, &poles, 6, 6, Some(&weights)).unwrap()
+}
+
+#[test]
+fn random_sheets_give_the_same_branches_in_either_order_and_hold_all_that_a_mesh_sees() {
+    let mut seed = 20_261_126;
+    let mut total = 0;
+    for round in 0..14 {
+        let a = random_sheet(&mut seed, 0.0);
+        let b = random_sheet(&mut seed, if round % 2 == 0 { 0.0 } else { 0.4 });
+        let (x, y) = (IndexedSurface::new(a.clone()), IndexedSurface::new(b.clone()));
+        let ask = |p: &IndexedSurface, q: &IndexedSurface| {
+            intersect(p, q, &MarchOptions::default(), &mut |_, _| false).unwrap()
+        };
+        let (found, swapped) = (ask(&x, &y), ask(&y, &x));
+        assert!(
+            found.is_proven && swapped.is_proven,
+            "round {round}: {} undecided",
+            found.undecided.len()
+        );
+        let shape = |f: &footpoint::march::Intersection| {
+            let closed = f.branches.iter().filter(|b| b.is_closed()).count();
+            (f.branches.len(), closed)
+        };
+        assert_eq!(shape(&found), shape(&swapped), "round {round}");
+        total += found.branches.len();
+        let apart = |p: P, q: P| (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>().sqrt();
+        for node in meshed(&a, &b, 48).iter().flatten().step_by(3) {
+            // What the mesh sees may lie just beyond a border: then there is nothing to correct to.
+            let Some(place) = correct(&a, &b, node.at, Corrector::NewtonFour, 1e-10, None) else {
+                continue;
+            };
+            let p = a.evaluate(place.at[0], place.at[1]);
+            let near = found.branches.iter().flat_map(|b| b.points.windows(2)).any(|w| {
+                let (d, f) =
+                    (apart(w[0].point, w[1].point), apart(w[0].point, p) + apart(w[1].point, p));
+                f <= d + 2e-2
+            });
+            assert!(near, "round {round}: nothing near {p:?}");
+        }
+    }
+    println!("{total} branches");
+    assert!(total > 30);
+}

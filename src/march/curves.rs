@@ -38,9 +38,9 @@ pub struct BranchCurves {
 pub fn reduced(points: &[MarchPoint], chord: f64) -> Vec<MarchPoint> {
     let mut keep = vec![false; points.len()];
     let mut waiting = Vec::new();
-    let mut start = 0;
+    let (mut start, near) = (0, seam_distance(points));
     for k in 1..=points.len() {
-        if k == points.len() || is_seam(&points[k - 1], &points[k]) {
+        if k == points.len() || is_seam(&points[k - 1], &points[k], near) {
             (keep[start], keep[k - 1]) = (true, true);
             // A loop has no chord: its farthest point makes two.
             waiting.push((start, k - 1));
@@ -58,11 +58,16 @@ pub fn reduced(points: &[MarchPoint], chord: f64) -> Vec<MarchPoint> {
     points.iter().zip(keep).filter(|(_, keep)| *keep).map(|(point, _)| *point).collect()
 }
 
+/// How near two points are that are one, seen from either side of a seam.
+fn seam_distance(points: &[MarchPoint]) -> f64 {
+    let far = |p: &MarchPoint| norm(sub(p.point, points[0].point));
+    let size = points.iter().map(far).fold(0.0, f64::max);
+    1e-13 * size + 8.0 * f64::EPSILON * points.first().map_or(0.0, |p| norm(p.point))
+}
+
 /// The same point of space with other parameters.
-fn is_seam(a: &MarchPoint, b: &MarchPoint) -> bool {
-    a.point == b.point && (a.uv != b.uv || a.st != b.st)
-        || norm(sub(a.point, b.point)) <= 1e-12 * (norm(a.point) + 1e-300)
-            && (a.uv != b.uv || a.st != b.st)
+fn is_seam(a: &MarchPoint, b: &MarchPoint, near: f64) -> bool {
+    norm(sub(a.point, b.point)) <= near && (a.uv != b.uv || a.st != b.st)
 }
 
 /// The curves of a branch: one set between two seams. `tolerance` is what the fit aims at, a length.
@@ -81,9 +86,9 @@ pub fn curves(
         )));
     }
     let mut all = Vec::new();
-    let mut start = 0;
+    let (mut start, near) = (0, seam_distance(points));
     for k in 1..=points.len() {
-        if k == points.len() || is_seam(&points[k - 1], &points[k]) {
+        if k == points.len() || is_seam(&points[k - 1], &points[k], near) {
             if k - start > 1 {
                 all.push(run(a, b, &points[start..k], tolerance)?);
             }

@@ -203,10 +203,9 @@ impl<'a> Search<'a> {
             let why = if level < 2 && self.coincide(a, b) { Open::Area } else { Open::Flat };
             return self.leave((i, j), why);
         }
-        if level >= LEVEL_OF_AREAS && level.is_multiple_of(4) && parallel(a, b) {
-            if let Some(why) = self.touching(a, b, level) {
-                return self.leave((i, j), why);
-            }
+        let looked = level >= LEVEL_OF_AREAS && level.is_multiple_of(4) && parallel(a, b);
+        if let Some(why) = looked.then(|| self.touching(a, b, level)).flatten() {
+            return self.leave((i, j), why);
         }
         if halve_first {
             next.extend(self.a.halves(i).map(|i| (i, j)));
