@@ -177,7 +177,13 @@ impl Frames {
         if sizes[smaller] < 1e-150 {
             return Err(Error::Unsupported("surfaces: one of them is a point".into()));
         }
-        let scale = 2f64.powi(-(sizes[smaller].log2().ceil() as i32));
+        let mut scale = 1.0;
+        while scale * sizes[smaller] > 1.0 {
+            scale *= 0.5;
+        }
+        while scale * sizes[smaller] <= 0.5 {
+            scale *= 2.0;
+        }
         let largest =
             boxes.iter().flat_map(|(l, h)| l.iter().chain(h)).fold(0.0f64, |m, x| m.max(x.abs()));
         let moved = |s: &Surface| {

@@ -41,10 +41,10 @@ def space(surfaces, branches) -> list[str]:
     lines, out = [], []
     for surface, colour in zip(surfaces, ("#7a8fb0", "#b08f6a")):
         (u0, u1), (v0, v1) = surface.domain
-        for k in range(25):
-            u, v = u0 + (u1 - u0) * k / 24, v0 + (v1 - v0) * k / 24
-            t = np.linspace(0, 1, 80)
-            for at in (np.stack([np.full(80, u), v0 + (v1 - v0) * t], -1), np.stack([u0 + (u1 - u0) * t, np.full(80, v)], -1)):
+        for k in range(17):
+            u, v = u0 + (u1 - u0) * k / 16, v0 + (v1 - v0) * k / 16
+            t = np.linspace(0, 1, 48)
+            for at in (np.stack([np.full(48, u), v0 + (v1 - v0) * t], -1), np.stack([u0 + (u1 - u0) * t, np.full(48, v)], -1)):
                 lines.append((seen(surface.evaluate(at).reshape(-1, 3)), f'stroke="{colour}" stroke-width="0.5" opacity="0.6"'))
     for branch, colour in branches:
         lines.append((seen(branch.points["point"]), f'stroke="{colour}" stroke-width="2.5"'))

@@ -10,6 +10,7 @@
 //! of intersection curves of two surfaces*, 1999.
 
 use crate::bounds::{Vector, add, cross, dot, norm, scaled, sub};
+use crate::portable::SameDigits;
 use crate::surface::Surface;
 
 /// A relative curvature below this share of the greatest curvature there counts as none.
@@ -132,8 +133,8 @@ pub fn look(a: &Surface, b: &Surface, uv: [f64; 2], near: [f64; 2]) -> Option<(T
     };
     let greatest =
         sizes(&ours).max(sizes(&[theirs(c[0], c[0]), theirs(c[0], c[1]), theirs(c[1], c[1])]));
-    let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
-    let (sin, cos) = angle.sin_cos();
+    let angle = 0.5 * (2.0 * xy).arctangent_over(xx - yy);
+    let (sin, cos) = angle.sine_cosine();
     let values = [
         xx * cos * cos + 2.0 * xy * sin * cos + yy * sin * sin,
         xx * sin * sin - 2.0 * xy * sin * cos + yy * cos * cos,
