@@ -21,7 +21,9 @@ use crate::knots::{Knots, MAX_DEGREE};
 mod adaptive;
 mod conditions;
 mod grid;
+mod near;
 mod parameters;
+mod scattered;
 mod triangle;
 
 pub use adaptive::{Adaptive, adaptive, of_function};
@@ -29,6 +31,9 @@ pub use conditions::{Condition, interpolate_periodic, interpolate_with, least_sq
 pub use grid::{
     Grid, GridOptions, SheetFit, adaptive_grid, grid_parameters, interpolate_grid,
     least_squares_grid,
+};
+pub use near::{
+    Certificate, Near, NearOptions, certify, curve_near, plane_parameters, surface_near,
 };
 pub use parameters::{Spacing, averaged_knots, parameters, spread_knots};
 use parameters::{check_parameters, check_points, distance};

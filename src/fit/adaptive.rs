@@ -137,7 +137,7 @@ pub(super) fn refined(
 }
 
 /// New knots, at most `room`, in the spans that miss a row, the worst spans first.
-fn cuts(
+pub(super) fn cuts(
     knots: &Knots,
     parameters: &[f64],
     missed: &[f64],
