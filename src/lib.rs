@@ -57,6 +57,8 @@ pub mod fit;
 
 pub mod elementary;
 
+pub mod construct;
+
 pub mod pcurve;
 
 pub mod trim;
