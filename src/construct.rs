@@ -16,9 +16,20 @@ use crate::error::Error;
 
 mod conic;
 mod quadric;
+mod sweep;
+mod skin;
+mod blend;
+mod rail;
+mod offset_proof;
+mod offset;
 
+pub use blend::{Corners, MEETING_TOLERANCE, coons, coons_bicubic, ferguson, gordon};
 pub use conic::{ArcForm, arc, arc_through, circle, conic_arc, ellipse, hyperbola, line, parabola};
+pub use offset::{OffsetFit, offset_curve, offset_curve_fit, offset_surface, offset_surface_fit};
 pub use quadric::{Quadric, cone, cylinder, plane, quadric, saddle, sphere, torus};
+pub use rail::{SweepOptions, Swept, swept};
+pub use skin::skinned;
+pub use sweep::{extruded, revolved, ruled, translational};
 
 fn invalid<T>(text: String) -> Result<T, Error> {
     Err(Error::InvalidArgument(text))

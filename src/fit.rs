@@ -316,6 +316,18 @@ fn solve(
     Ok(first_pole)
 }
 
+/// Poles near rows of `width` numbers at parameters, in the sense of least squares; as many poles as rows interpolate.
+pub(crate) fn rows_near(
+    knots: &Knots,
+    parameters: &[f64],
+    rows: Vec<f64>,
+    width: usize,
+    ends: Ends,
+) -> Result<Vec<f64>, Error> {
+    check_parameters(parameters, rows.len() / width)?;
+    solve(knots, parameters, rows, width, ends)
+}
+
 /// Can the ends be poles?
 fn check_ends(knots: &Knots, parameters: &[f64]) -> Result<(), Error> {
     let (degree, (start, end)) = (knots.degree(), knots.domain());

@@ -35,7 +35,7 @@ pub struct SheetFit {
 
 /// How [`adaptive_grid`] fits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GridOptions {
+pub struct GridOptions<'a> {
     /// Degrees of the surface, 1 to 31; 3 by default.
     pub degrees: [usize; 2],
     /// Distance of a point at its parameters that is good enough; positive.
@@ -44,11 +44,19 @@ pub struct GridOptions {
     pub max_poles: usize,
     /// What happens at the borders: corners interpolated by default, borders fitted as curves of their own.
     pub ends: Ends,
+    /// Knots in u and v that are there from the beginning, with their multiplicities, as [`Adaptive::breaks`].
+    pub breaks: [&'a [(f64, usize)]; 2],
 }
 
-impl Default for GridOptions {
+impl Default for GridOptions<'_> {
     fn default() -> Self {
-        Self { degrees: [3, 3], tolerance: 1e-6, max_poles: 4096, ends: Ends::default() }
+        Self {
+            degrees: [3, 3],
+            tolerance: 1e-6,
+            max_poles: 4096,
+            ends: Ends::default(),
+            breaks: [&[], &[]],
+        }
     }
 }
 
@@ -275,7 +283,7 @@ pub fn adaptive_grid(
         tolerance,
         max_poles: options.max_poles,
         ends: options.ends,
-        breaks: &[],
+        breaks: options.breaks[k],
     };
     let mut values = [Vec::new(), Vec::new()];
     for k in 0..2 {
