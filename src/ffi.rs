@@ -43,6 +43,10 @@ mod weights_records;
 mod weights_report;
 mod weights;
 mod weights_edit;
+mod fit;
+mod construct;
+mod construct_surface;
+mod offset;
 #[cfg(test)]
 mod tests;
 

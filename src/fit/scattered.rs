@@ -19,8 +19,8 @@ use crate::knots::{Knots, MAX_DEGREE};
 /// Weight of the second differences beside the mean diagonal entry.
 const RIDGE: f64 = 1e-8;
 /// Corrections of the solution, at most, and the change of the poles, relative to their size, at which they end.
-const CORRECTIONS: usize = 8;
-const SETTLED: f64 = 1e-12;
+const CORRECTIONS: usize = 4;
+const SETTLED: f64 = 1e-11;
 
 /// The basis functions of the points.
 pub(super) struct Design {
