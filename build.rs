@@ -8,7 +8,7 @@ const HEADER: &str = "include/footpoint.h";
 /// Setting this variable writes the header instead of comparing it.
 const WRITE: &str = "FOOTPOINT_WRITE_HEADER";
 /// The files that hold the C API, in the order in which the header has them.
-const SOURCES: [&str; 22] = [
+const SOURCES: [&str; 28] = [
     "src/ffi.rs",
     "src/ffi/records.rs",
     "src/ffi/options.rs",
@@ -31,6 +31,12 @@ const SOURCES: [&str; 22] = [
     "src/ffi/construct.rs",
     "src/ffi/construct_surface.rs",
     "src/ffi/offset.rs",
+    "src/ffi/transform.rs",
+    "src/ffi/support.rs",
+    "src/ffi/trim.rs",
+    "src/ffi/trim_parts.rs",
+    "src/ffi/trim_change.rs",
+    "src/ffi/trim_report.rs",
 ];
 
 fn main() {

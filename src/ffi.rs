@@ -13,6 +13,8 @@
 //!                   -> normal, unwrap                          normals.rs, path.rs
 //!                   -> scene                                   scene.rs, scene_query.rs
 //!                   -> weights                                 weights.rs, weights_records.rs, weights_report.rs, weights_edit.rs
+//!                   -> transform, trim                         transform.rs, support.rs, trim.rs, trim_parts.rs,
+//!                                                              trim_change.rs, trim_report.rs
 //!          <- fpt_status, text of a failure for fpt_last_error
 //! ```
 //!
@@ -47,6 +49,12 @@ mod fit;
 mod construct;
 mod construct_surface;
 mod offset;
+mod transform;
+mod support;
+mod trim;
+mod trim_parts;
+mod trim_change;
+mod trim_report;
 #[cfg(test)]
 mod tests;
 
