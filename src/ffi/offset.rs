@@ -9,6 +9,7 @@ use super::surface::{self, fpt_surface};
 use super::{fpt_status, guard};
 use crate::callback::{CurveBounds, SurfaceBounds};
 use crate::construct::{offset_curve, offset_curve_fit, offset_surface, offset_surface_fit};
+use std::sync::Arc;
 
 /// The exact offset of a spline curve in a plane, as a curve from a function (with derivatives to order 2, without bounds).
 ///
@@ -31,7 +32,7 @@ pub unsafe extern "C" fn fpt_curve_offset(
         let normal = numbers("plane_normal", plane_normal)?;
         let out = place("out", out)?;
         let offset = offset_curve(base, distance, normal, CurveBounds::default())?;
-        *out = fpt_curve::handle(CurveForm::Function(Box::new(offset)));
+        *out = fpt_curve::handle(CurveForm::Function(Arc::new(offset)));
         Ok(())
     })
 }
@@ -90,7 +91,7 @@ pub unsafe extern "C" fn fpt_surface_offset(
         let base = surface::indexed(surface)?.surface();
         let out = place("out", out)?;
         let offset = offset_surface(base, distance, SurfaceBounds::default())?;
-        *out = fpt_surface::handle(SurfaceForm::Function(Box::new(offset)));
+        *out = fpt_surface::handle(SurfaceForm::Function(Arc::new(offset)));
         Ok(())
     })
 }
