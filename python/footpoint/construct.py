@@ -127,7 +127,7 @@ def _optional(name: str, values: ArrayLike | None, shape: tuple[int, ...]) -> np
 def _options(tolerance: float = 0.0, degrees: Sequence[int] = (3, 3), **others: Any) -> tuple[Any, list]:
     """fpt_fit_options, and what must live as long."""
     options = lib.FitOptions()
-    options.struct_size = ctypes.sizeof(options)
+    lib.functions["fit_options_init"](ctypes.addressof(options), ctypes.sizeof(options))
     options.tolerance = real("tolerance", tolerance)
     options.degree_u, options.degree_v = integer("degree", degrees[0], 1, 31), integer("degree", degrees[1], 1, 31)
     kept: list = []
@@ -388,7 +388,7 @@ def swept(profile: Curve, spine: Curve, tolerance: float, degree: int = 3, twist
     close  on a closed spine: turn besides so that the end meets the begin
     """
     options = lib.SweepOptions()
-    options.struct_size = ctypes.sizeof(options)
+    lib.functions["sweep_options_init"](ctypes.addressof(options), ctypes.sizeof(options))
     options.tolerance, options.twist = real("tolerance", tolerance), real("twist", twist)
     options.degree, options.close, options.max_poles = integer("degree", degree, 1, 31), int(bool(close)), integer("max_poles", max_poles)
     error, holonomy = ctypes.c_double(), ctypes.c_double()
