@@ -20,6 +20,7 @@ use crate::bounds::{Vector, add, cross, dot, norm, scaled, sub};
 use crate::curve::Curve;
 use crate::elementary::{Axes, CircleForm, quadrant_exact};
 use crate::error::Error;
+use crate::portable::SameDigits;
 use crate::weights::conic::weight_of_rho;
 
 /// How an arc of a circle or an ellipse is written as a spline. All run from 0 to 1.
@@ -176,7 +177,7 @@ pub fn arc_through(points: [Vector; 3]) -> Result<Curve, Error> {
     let radius = norm(to_center);
     let axes = Axes::around(center, axis, scaled(to_center, -1.0))?;
     let end = sub(ac, to_center);
-    let mut sweep = dot(end, axes.y).atan2(dot(end, axes.x));
+    let mut sweep = dot(end, axes.y).arctangent_over(dot(end, axes.x));
     if sweep <= 0.0 {
         sweep += TAU;
     }
@@ -220,10 +221,12 @@ pub fn hyperbola(axes: &Axes, [a, b]: [f64; 2], [start, end]: [f64; 2]) -> Resul
     check_positive("radius_x", a)?;
     check_positive("radius_y", b)?;
     check_interval("range", [start, end])?;
-    let weight = (0.5 * (end - start)).cosh();
+    let weight = (0.5 * (end - start)).hyperbolic_cosine();
     let middle = 0.5 * (start + end);
     check_number("range", weight)?;
-    let at = |t: f64, w: f64| place(&axes, a * (t.cosh() / w), b * (t.sinh() / w));
+    let at = |t: f64, w: f64| {
+        place(&axes, a * (t.hyperbolic_cosine() / w), b * (t.hyperbolic_sine() / w))
+    };
     let poles = [at(start, 1.0), at(middle, weight), at(end, 1.0)];
     Curve::new(&bezier_knots(2), 2, &poles, Some(&[1.0, weight, 1.0]))
 }

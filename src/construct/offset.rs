@@ -267,7 +267,7 @@ pub fn offset_surface_fit(
         surface.partials(u, v, 1, &mut s);
         let m = cross(s[1], s[2]);
         let length = norm(m);
-        let normal = if length > 1e-9 * norm(s[1]).max(norm(s[2])).powi(2) {
+        let normal = if length > 1e-9 * dot(s[1], s[1]).max(dot(s[2], s[2])) {
             scaled(m, 1.0 / length)
         } else {
             normals.at(&FootPoint { u, v, point: s[0], ..FootPoint::unreached() }, None).normal

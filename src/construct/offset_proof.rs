@@ -184,7 +184,7 @@ impl Cell {
         if c.is_nan() || c >= distance * distance {
             return f64::INFINITY;
         }
-        ((c / distance).powi(2) + tau).sqrt() * (1.0 + 16.0 * f64::EPSILON)
+        (c / distance * (c / distance) + tau).sqrt() * (1.0 + 16.0 * f64::EPSILON)
     }
 
     fn halved(&self, direction: usize) -> [Self; 2] {

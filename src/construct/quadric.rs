@@ -19,6 +19,7 @@ use super::{check_interval, check_number, check_positive, invalid};
 use crate::bounds::{Vector, add};
 use crate::elementary::{Axes, CircleForm, Elementary, ElementarySurface};
 use crate::error::Error;
+use crate::portable::SameDigits;
 use crate::surface::Surface;
 
 /// A quadric with an axis, by its semi-axes a, b across and z along; t is its parameter along the profile.
@@ -63,11 +64,12 @@ impl Quadric {
                 Ok((arc.poles, arc.knots, arc.degree))
             }
             Self::OneSheet | Self::TwoSheets => {
-                let (weight, middle) = ((0.5 * (end - start)).cosh(), 0.5 * (start + end));
+                let (weight, middle) =
+                    ((0.5 * (end - start)).hyperbolic_cosine(), 0.5 * (start + end));
                 check_number("profile", weight)?;
                 let at = |t: f64, w: f64| match self {
-                    Self::OneSheet => [t.cosh() / w, t.sinh() / w, w],
-                    _ => [t.sinh() / w, t.cosh() / w, w],
+                    Self::OneSheet => [t.hyperbolic_cosine() / w, t.hyperbolic_sine() / w, w],
+                    _ => [t.hyperbolic_sine() / w, t.hyperbolic_cosine() / w, w],
                 };
                 let poles = vec![at(start, 1.0), at(middle, weight), at(end, 1.0)];
                 Ok((poles, bezier_knots(2), 2))

@@ -18,6 +18,7 @@ use crate::curve::Curve;
 use crate::error::Error;
 use crate::fit::{Adaptive, of_function};
 use crate::knots::{MAX_DEGREE, Side};
+use crate::portable::SameDigits;
 use crate::surface::Surface;
 
 /// How [`swept`] moves the profile.
@@ -152,7 +153,7 @@ impl<'a> Frames<'a> {
             return 0.0;
         }
         let side = cross(first.tangent, first.across);
-        dot(last.across, side).atan2(dot(last.across, first.across))
+        dot(last.across, side).arctangent_over(dot(last.across, first.across))
     }
 }
 
@@ -196,7 +197,7 @@ pub fn swept(profile: &Curve, spine: &Curve, options: &SweepOptions) -> Result<S
     let basis = [first.across, cross(first.tangent, first.across), first.tangent];
     let motion = |v: f64| -> Option<[f64; 12]> {
         let (node, share) = frames.frame(v).ok()?;
-        let (sine, cosine) = (turn * share).sin_cos();
+        let (sine, cosine) = (turn * share).sine_cosine();
         let side = cross(node.tangent, node.across);
         let turned = [
             add(scaled(node.across, cosine), scaled(side, sine)),

@@ -26,6 +26,7 @@ use crate::curve::Curve;
 use crate::error::Error;
 use crate::index::{IndexedCurve, IndexedSurface};
 use crate::knots::{Knots, MAX_DEGREE};
+use crate::portable::SameDigits;
 use crate::surface::Surface;
 
 /// How [`curve_near`] and [`surface_near`] fit.
@@ -284,7 +285,7 @@ pub fn plane_parameters(points: &[Vector]) -> Result<Vec<[f64; 2]>, Error> {
         .iter()
         .map(flat)
         .fold([0.0; 3], |sum, [x, y]| [sum[0] + x * x, sum[1] + x * y, sum[2] + y * y]);
-    let (sine, cosine) = (0.5 * (2.0 * xy).atan2(xx - yy)).sin_cos();
+    let (sine, cosine) = (0.5 * (2.0 * xy).arctangent_over(xx - yy)).sine_cosine();
     let turned = |p: &Vector| {
         let [x, y] = flat(p);
         [cosine * x + sine * y, cosine * y - sine * x]
