@@ -165,7 +165,7 @@ pub fn arc_through(points: [Vector; 3]) -> Result<Curve, Error> {
     let (ab, ac) = (sub(b, a), sub(c, a));
     let axis = cross(ab, ac);
     let square = dot(axis, axis);
-    if !(square > 1e-24 * dot(ab, ab) * dot(ac, ac)) {
+    if square.is_nan() || square <= 1e-24 * dot(ab, ab) * dot(ac, ac) {
         return invalid("points: they lie on a line".into());
     }
     // The centre from a: in the plane, equally far from all.

@@ -40,6 +40,9 @@ const JUMP: f64 = 1e-9;
 /// How many times the samples of a span are doubled.
 const ROUNDS: usize = 4;
 
+/// Most samples of a surface beyond the first round.
+const MOST_SAMPLES: usize = 4_000_000;
+
 /// `m / |m|` and its derivatives from those of m: n, n_u, n_v, n_uu, n_uv, n_vv. Nothing where m vanishes.
 fn unit_jet(m: &[Vector; 6]) -> Option<[Vector; 6]> {
     let length = norm(m[0]);
@@ -282,7 +285,12 @@ pub fn offset_surface_fit(
     for round in 1..=ROUNDS {
         let lists =
             [sampled(surface.knots_u(), per_span[0]), sampled(surface.knots_v(), per_span[1])];
-        let mut points = Vec::with_capacity(lists[0].len() * lists[1].len());
+        let count = lists[0].len().saturating_mul(lists[1].len());
+        if count > MOST_SAMPLES && best.is_some() {
+            break;
+        }
+        let mut points = Vec::new();
+        points.try_reserve_exact(count).map_err(|_| Error::OutOfMemory)?;
         for &u in &lists[0] {
             for &v in &lists[1] {
                 points.push(exact(u, v)?);

@@ -144,7 +144,8 @@ impl Cell {
             .map(|(i, j)| a_u[i].times(&a_v[j]).plus(-1.0, &a_u[j].times(&a_v[i])));
         let at = |polys: &Polys, k: usize| [polys[0].c[k], polys[1].c[k], polys[2].c[k]];
         // The sign of alpha in the first corner.
-        if !(dot(at(&e, 0), at(&m, 0)) * distance > 0.0) {
+        let side = dot(at(&e, 0), at(&m, 0)) * distance;
+        if side.is_nan() || side <= 0.0 {
             return None;
         }
         let middle =

@@ -157,7 +157,7 @@ pub fn curve_near(
     let mut values = adaptive.first_knots([start, end]);
     let limit = options.max_poles.min(points.len());
     let mut at = parameters.to_vec();
-    let mut kept: Option<(Curve, Vec<f64>)> = None;
+    let mut kept: Option<(Curve, Vec<f64>, f64)> = None;
     let curve_of = |at: &[f64], values: &[f64]| {
         let knots =
             Knots::new(values, degree, values.len() - degree - 1).map_err(|e| e.named(""))?;
@@ -204,9 +204,12 @@ pub fn curve_near(
             }
             (curve, missed) = (again, now);
         }
-        let done = worst(&missed) <= options.tolerance;
+        let error = worst(&missed);
+        let done = error <= options.tolerance;
         let knots = curve.knots().clone();
-        kept = Some((curve, at.clone()));
+        if kept.as_ref().is_none_or(|kept| error < kept.2) {
+            kept = Some((curve, at.clone(), error));
+        }
         if done {
             break;
         }
@@ -222,7 +225,7 @@ pub fn curve_near(
         values.extend(new);
         values.sort_by(f64::total_cmp);
     }
-    let Some((curve, at)) = kept else {
+    let Some((curve, at, _)) = kept else {
         return Err(Error::InvalidArgument("points: no curve".into()));
     };
     let shape = IndexedCurve::new(curve);
