@@ -61,6 +61,8 @@ pub mod fit;
 
 pub mod elementary;
 
+pub mod construct;
+
 pub mod transform;
 
 pub mod pcurve;
