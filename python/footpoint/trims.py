@@ -82,6 +82,7 @@ class FindingKind(IntEnum):
     CONTAINMENT = 7
     SENSE = 8
     FAILING = 9
+    UNDECIDED = 10
 
 
 def _made(name: str, *arguments: Any) -> int:
