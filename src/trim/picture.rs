@@ -264,7 +264,7 @@ fn path(points: impl Iterator<Item = [f64; 2]>) -> String {
     let mut out = String::new();
     let (mut before, mut points) = (None, points.peekable());
     while let Some([x, y]) = points.next() {
-        let far = before.is_none_or(|[a, b]: [f64; 2]| (x - a).hypot(y - b) >= 0.25);
+        let far = before.is_none_or(|[a, b]: [f64; 2]| (x - a).hypotenuse(y - b) >= 0.25);
         if far || points.peek().is_none() {
             let _ = write!(out, "{}{x:.2} {y:.2} ", if before.is_none() { "M" } else { "L" });
             before = Some([x, y]);
