@@ -504,6 +504,10 @@ typedef enum fpt_finding_kind {
      * The surface's function fails on a coedge.
      */
     FPT_FINDING_FAILING = 9,
+    /**
+     * Whether two coedges touch could not be decided: they are too long for the tolerance, or lie on each other.
+     */
+    FPT_FINDING_UNDECIDED = 10,
 } fpt_finding_kind;
 
 /**
@@ -1673,7 +1677,7 @@ typedef struct fpt_trim_summary {
      */
     double segment_error;
     /**
-     * 1: coedges without a finding are proven to be disjoint; 0: the surface is a function, its speed is known from samples only.
+     * 1: coedges without a finding are proven to be disjoint away from common ends; 0: the surface is a function, its speed is known from samples only.
      */
     uint32_t proven;
     /**
