@@ -1,0 +1,247 @@
+//! A pcurve for one stretch: a line if that will do, else a spline whose knots are added where the proof fails.
+
+use super::cut::Stretch;
+use super::feet::Sample;
+use super::{PulledPiece, Puller, pulled};
+use crate::curve::Curve;
+use crate::error::Error;
+use crate::fit::{Ends, least_squares};
+use crate::pcurve::deviation::{Deviation, deviation};
+
+/// Samples that a span has beyond its degree.
+const MORE_SAMPLES: usize = 3;
+
+/// Bounds below this share of the tolerance are not made sharper.
+const ENOUGH: f64 = 0.3;
+
+/// An oblique line that is so nearly an isoline, in the tolerance, is made one.
+const NEARLY: f64 = 1e-3;
+
+/// Most parts into which a span is divided at once, and most rounds.
+const MOST_PARTS: f64 = 16.0;
+const ROUNDS: usize = 40;
+
+/// Spans are not made shorter than this share of the stretch.
+const SHORTEST: f64 = 1e-12;
+
+/// A knot of the fit and how often it stands there.
+#[derive(Clone, Copy, Debug)]
+struct Knot {
+    t: f64,
+    times: usize,
+}
+
+impl Puller<'_> {
+    /// The pcurve of one stretch.
+    pub fn approximate(
+        &mut self,
+        stretch: &Stretch,
+        poll: &mut dyn FnMut() -> bool,
+    ) -> Result<PulledPiece, Error> {
+        self.samples.clone_from(&stretch.samples);
+        let tolerance = self.tolerance;
+        let mut flags = stretch.flags();
+        if stretch.samples.iter().any(|sample| sample.lower_bound > tolerance) {
+            flags |= pulled::NOT_ON_SURFACE;
+        }
+        let (curve, deviation) = match self.line(stretch)? {
+            Some(found) => found,
+            None => self.spline(stretch, poll)?,
+        };
+        // Not <=: a bound that is NaN proves nothing.
+        if !(deviation.bound <= tolerance) {
+            flags |= pulled::NOT_PROVEN;
+        }
+        Ok(PulledPiece { curve, deviation, flags })
+    }
+
+    /// What a fit must reach: the tolerance, or the edge's own distance and a tenth of it.
+    fn goal(&self) -> f64 {
+        let own = self.samples.iter().fold(0.0, |most: f64, sample| most.max(sample.distance));
+        self.tolerance.max(1.05 * own + 0.1 * self.tolerance)
+    }
+
+    /// Parameters of a sample on a stretch.
+    fn place(&self, stretch: &Stretch, sample: &Sample) -> [f64; 2] {
+        [0, 1].map(|k| {
+            let x = sample.at[k] - stretch.lap[k] * self.period(k);
+            stretch.along[k].unwrap_or(x.clamp(self.ends[k][0], self.ends[k][1]))
+        })
+    }
+
+    /// Where a stretch begins or ends.
+    fn end_place(&mut self, stretch: &Stretch, last: bool) -> [f64; 2] {
+        let fixed = stretch.ends[usize::from(last)];
+        let t = stretch.range[usize::from(last)];
+        if let Some(edge) = fixed.collapsed {
+            let mut at = self.limit(stretch, t);
+            at[edge / 2] = self.ends[edge / 2][edge % 2];
+            return at;
+        }
+        let sample = self.sample_at(t);
+        let mut at = self.place(stretch, &sample);
+        for k in (0..2).filter(|&k| fixed.seam[k] && stretch.along[k].is_none()) {
+            let seam = ((sample.at[k] - self.ends[k][0]) / self.period(k)).round();
+            at[k] = if seam > stretch.lap[k] { self.ends[k][1] } else { self.ends[k][0] };
+        }
+        at
+    }
+
+    /// The limit of the parameters at an end on a collapsed edge: a parabola through the nearest three samples.
+    fn limit(&mut self, stretch: &Stretch, t: f64) -> [f64; 2] {
+        let width = stretch.range[1] - stretch.range[0];
+        let far = |s: &&Sample| (s.t - t).abs() > 1e-7 * width;
+        let mut near: Vec<Sample> = self.samples.iter().filter(far).copied().collect();
+        near.sort_by(|a, b| (a.t - t).abs().total_cmp(&(b.t - t).abs()));
+        near.truncate(3);
+        let places: Vec<[f64; 2]> = near.iter().map(|s| self.place(stretch, s)).collect();
+        let weight = |i: usize| -> f64 {
+            let others = (0..near.len()).filter(|&j| j != i);
+            others.map(|j| (t - near[j].t) / (near[i].t - near[j].t)).product()
+        };
+        [0, 1].map(|k| {
+            let sum: f64 = (0..near.len()).map(|i| weight(i) * places[i][k]).sum();
+            stretch.along[k].unwrap_or(sum.clamp(self.ends[k][0], self.ends[k][1]))
+        })
+    }
+
+    /// A line that is within the goal.
+    fn line(&mut self, stretch: &Stretch) -> Result<Option<(Curve, Deviation)>, Error> {
+        let (a, b) = (self.end_place(stretch, false), self.end_place(stretch, true));
+        let [from, to] = stretch.range;
+        let goal = self.goal();
+        let mut tried = Vec::new();
+        let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+        let speeds = self.speeds(middle);
+        for k in 0..2 {
+            if a[k] != b[k] && (b[k] - a[k]).abs() * speeds[k] <= NEARLY * self.tolerance {
+                let (mut c, mut d) = (a, b);
+                let seam = |end: usize| stretch.ends[end].seam[k];
+                let value = if seam(1) { b[k] } else if seam(0) { a[k] } else { middle[k] };
+                (c[k], d[k]) = (value, value);
+                tried.push((c, d));
+            }
+        }
+        if let Some(edge) = stretch.ends[0].collapsed {
+            let mut c = b;
+            c[edge / 2] = a[edge / 2];
+            tried.push((c, b));
+        }
+        if let Some(edge) = stretch.ends[1].collapsed {
+            let mut d = a;
+            d[edge / 2] = b[edge / 2];
+            tried.push((a, d));
+        }
+        tried.push((a, b));
+        for (a, b) in tried {
+            let poles = [[a[0], a[1], 0.0], [b[0], b[1], 0.0]];
+            let line = Curve::new(&[from, from, to, to], 1, &poles, None)?;
+            // The distance at one place refuses most lines at once.
+            let at = from + 0.382 * (to - from);
+            let quick = crate::pcurve::deviation::deviation_at(&self.composer, &line, self.edge, at);
+            if quick > goal {
+                continue;
+            }
+            let found =
+                deviation(&mut self.composer, &line, self.edge, stretch.range, ENOUGH * goal)?;
+            if found.bound <= goal {
+                return Ok(Some((line, found)));
+            }
+        }
+        Ok(None)
+    }
+
+    /// A spline, as near as its poles allow.
+    fn spline(
+        &mut self,
+        stretch: &Stretch,
+        poll: &mut dyn FnMut() -> bool,
+    ) -> Result<(Curve, Deviation), Error> {
+        let mut knots = self.first_knots(stretch);
+        let shortest = SHORTEST * (stretch.range[1] - stretch.range[0]);
+        let mut best: Option<(Curve, Deviation)> = None;
+        for _ in 0..ROUNDS {
+            if poll() {
+                return Err(Error::Cancelled);
+            }
+            let curve = self.fitted(stretch, &knots)?;
+            let (goal, mut whole) = (self.goal(), Deviation::NONE);
+            let (mut next, mut failed) = (vec![knots[0]], false);
+            for pair in knots.windows(2) {
+                let range = [pair[0].t, pair[1].t];
+                let found =
+                    deviation(&mut self.composer, &curve, self.edge, range, ENOUGH * goal)?;
+                whole = whole.max(found);
+                if !(found.bound <= goal) && range[1] - range[0] > shortest {
+                    failed = true;
+                    let share = 1.1 * (found.bound / goal).powf(1.0 / (self.degree + 1) as f64);
+                    let parts = share.ceil().clamp(2.0, MOST_PARTS);
+                    let at = |k: usize| range[0] + (range[1] - range[0]) * (k as f64 / parts);
+                    next.extend((1..parts as usize).map(|k| Knot { t: at(k), times: 1 }));
+                }
+                next.push(pair[1]);
+            }
+            if best.as_ref().is_none_or(|best| whole.bound < best.1.bound) {
+                best = Some((curve, whole));
+            }
+            if !failed || next.iter().map(|knot| knot.times).sum::<usize>() > self.most_poles {
+                break;
+            }
+            knots = next;
+        }
+        best.ok_or(Error::OutOfMemory)
+    }
+
+    /// The ends, and the places where the edge is not smooth.
+    fn first_knots(&self, stretch: &Stretch) -> Vec<Knot> {
+        let [from, to] = stretch.range;
+        let given = self.edge.knots();
+        let mut knots = vec![Knot { t: from, times: 0 }];
+        for span in given.spans() {
+            let t = given.values()[span];
+            if from < t && t < to && given.multiplicity(t) + 1 >= given.degree() {
+                let smooth = given.degree().saturating_sub(given.multiplicity(t));
+                knots.push(Knot { t, times: self.degree.saturating_sub(smooth).max(1) });
+            }
+        }
+        knots.push(Knot { t: to, times: self.degree + 1 });
+        knots
+    }
+
+    /// Least squares on knots, with the poles moved into the domain.
+    fn fitted(&mut self, stretch: &Stretch, knots: &[Knot]) -> Result<Curve, Error> {
+        let degree = self.degree;
+        let each = degree + MORE_SAMPLES;
+        let mut parameters = Vec::with_capacity(knots.len() * each);
+        for pair in knots.windows(2) {
+            let at = |k: usize| pair[0].t + (pair[1].t - pair[0].t) * (k as f64 / each as f64);
+            parameters.extend((0..each).map(at));
+        }
+        parameters.push(stretch.range[1]);
+        let inside = |t: &f64| stretch.range[0] < *t && *t < stretch.range[1];
+        for t in parameters.iter().filter(|t| inside(t)) {
+            self.sample_at(*t);
+        }
+        let last = parameters.len() - 1;
+        let mut points = Vec::with_capacity(parameters.len());
+        for (i, &t) in parameters.iter().enumerate() {
+            points.push(if i == 0 || i == last {
+                self.end_place(stretch, i == last)
+            } else {
+                let sample = self.sample_at(t);
+                self.place(stretch, &sample)
+            });
+        }
+        let mut values = vec![stretch.range[0]; degree + 1];
+        for knot in &knots[1..] {
+            values.extend(std::iter::repeat_n(knot.t, knot.times));
+        }
+        let fit = least_squares::<2>(degree, &values, &parameters, &points, Ends::Interpolated)?;
+        let inside = |pole: &[f64; 2]| {
+            let [u, v] = [0, 1].map(|k| pole[k].clamp(self.ends[k][0], self.ends[k][1]));
+            [u, v, 0.0]
+        };
+        let poles: Vec<[f64; 3]> = fit.spline.poles().iter().map(inside).collect();
+        Curve::new(&values, degree, &poles, None)
+    }
+}
