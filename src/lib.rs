@@ -55,4 +55,10 @@ pub mod weights;
 
 pub mod fit;
 
+pub mod elementary;
+
+pub mod pcurve;
+
+pub mod trim;
+
 mod ffi;

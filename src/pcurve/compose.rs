@@ -198,6 +198,42 @@ impl<'a> Composer<'a> {
         self.surface
     }
 
+    /// Refuses a curve whose ends, or ends of spans, are outside of the domain.
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] with the place.
+    pub fn check_inside(&self, pcurve: &Curve) -> Result<(), Error> {
+        for span in pcurve.knots().spans() {
+            let [a, b] = [pcurve.knots().values()[span], pcurve.knots().values()[span + 1]];
+            self.check_ends(&Part::new(pcurve, span, [a, b]))?;
+        }
+        Ok(())
+    }
+
+    fn check_ends(&self, part: &Part) -> Result<(), Error> {
+        for (k, knots) in self.knots().into_iter().enumerate() {
+            let ((start, end), slack) = (knots.domain(), self.slack(part, k));
+            for (pole, t) in part.poles.iter().zip([part.range[0]]).chain(
+                part.poles.iter().rev().zip([part.range[1]]),
+            ) {
+                if !(start - slack..=end + slack).contains(&pole[k]) {
+                    let name = ["u", "v"][k];
+                    return Err(Error::InvalidArgument(format!(
+                        "pcurve: at {t:?} it leaves the domain, {name} = {:?}",
+                        pole[k]
+                    )));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// How far a part may lie beyond a knot line and still count as inside.
+    fn slack(&self, part: &Part, k: usize) -> f64 {
+        let (start, end) = self.knots()[k].domain();
+        SLACK * HALF_ULP * start.abs().max(end.abs()) + 2.0 * part.error[k]
+    }
+
     /// The image of the part `range` of a curve (u, v, 0), in order.
     ///
     /// # Errors
@@ -243,22 +279,10 @@ impl<'a> Composer<'a> {
 
     /// The spans that hold a part, or where to cut it.
     fn place(&self, part: &Part, pcurve: &Curve) -> Result<Result<[usize; 2], f64>, Error> {
+        self.check_ends(part)?;
         let mut spans = [0; 2];
         for (k, knots) in self.knots().into_iter().enumerate() {
-            let (start, end) = knots.domain();
-            let slack = SLACK * HALF_ULP * start.abs().max(end.abs()) + 2.0 * part.error[k];
-            for (pole, t) in [(part.poles[0], part.range[0])]
-                .into_iter()
-                .chain([(part.poles[part.poles.len() - 1], part.range[1])])
-            {
-                if !(start - slack..=end + slack).contains(&pole[k]) {
-                    let name = ["u", "v"][k];
-                    return Err(Error::InvalidArgument(format!(
-                        "pcurve: at {t:?} it leaves the domain, {name} = {:?}",
-                        pole[k]
-                    )));
-                }
-            }
+            let slack = self.slack(part, k);
             let [low, high] = part.extent(k);
             let span = knots.span(low + 0.5 * (high - low));
             let [a, b] = [knots.values()[span], knots.values()[span + 1]];

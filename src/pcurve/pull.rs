@@ -156,6 +156,8 @@ struct Puller<'a> {
     ends: [[f64; 2]; 2],
     workspace: Workspace,
     options: QueryOptions,
+    /// Along a seam, whether the end of the domain is taken instead of the start.
+    high: [bool; 2],
     /// In the order of t; parameters unrolled.
     samples: Vec<Sample>,
 }
@@ -171,7 +173,11 @@ impl<'a> Puller<'a> {
         let tolerance = if options.tolerance > 0.0 { options.tolerance } else { 1e-7 * diagonal };
         let by_default = if tolerance < 1e-8 * diagonal { 5 } else { 3 };
         let [u0, u1, v0, v1] = shape.surface().domain();
+        let ends = [[u0, u1], [v0, v1]];
+        let near_end =
+            |k: usize, hint: [f64; 2]| ends[k][1] - hint[k] < hint[k] - ends[k][0];
         Self {
+            high: [0, 1].map(|k| options.hint.is_some_and(|hint| near_end(k, hint))),
             shape,
             index,
             edge,
@@ -179,7 +185,7 @@ impl<'a> Puller<'a> {
             tolerance,
             degree: if options.degree > 0 { options.degree } else { by_default },
             most_poles: if options.most_poles > 0 { options.most_poles } else { DEFAULT_POLES },
-            ends: [[u0, u1], [v0, v1]],
+            ends,
             workspace: Workspace::default(),
             options: QueryOptions::default(),
             samples: Vec::new(),

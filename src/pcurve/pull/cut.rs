@@ -221,7 +221,7 @@ impl Puller<'_> {
             lap[k] = known.unwrap_or_else(|| {
                 let seam = ((middle.at[k] - self.ends[k][0]) / self.period(k)).round();
                 let kept = before.map(|lap| lap[k]).filter(|&l| l == seam || l == seam - 1.0);
-                let lap = kept.unwrap_or(if seam == 1.0 { 0.0 } else { seam });
+                let lap = kept.unwrap_or(if self.high[k] { seam - 1.0 } else { seam });
                 along[k] = Some(if lap == seam { self.ends[k][0] } else { self.ends[k][1] });
                 lap
             });
