@@ -61,4 +61,6 @@ pub mod pcurve;
 
 pub mod trim;
 
+pub mod face;
+
 mod ffi;
