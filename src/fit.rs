@@ -19,10 +19,12 @@ use crate::error::Error;
 use crate::knots::{Knots, MAX_DEGREE};
 
 mod adaptive;
+mod conditions;
 mod parameters;
 mod triangle;
 
 pub use adaptive::{Adaptive, adaptive, of_function};
+pub use conditions::{Condition, interpolate_periodic, interpolate_with, least_squares_periodic};
 pub use parameters::{Spacing, averaged_knots, parameters, spread_knots};
 use parameters::{check_parameters, check_points, distance};
 use triangle::{Triangle, zeros};
@@ -158,29 +160,34 @@ pub fn interpolate<const N: usize>(
     }
     check_points(points, degree + 1)?;
     check_parameters(parameters, points.len())?;
-    if let Some(i) = parameters.windows(2).position(|w| w[1] <= w[0]) {
-        return Err(Error::InvalidArgument(format!(
-            "parameters: parameter {} equals parameter {i}",
-            i + 1
-        )));
+    rising(parameters)?;
+    let knots = averaged_knots(degree, parameters);
+    let fit = least_squares(degree, &knots, parameters, points, Ends::Interpolated)?;
+    checked_interpolant(fit, points)
+}
+
+/// Refuses parameters that do not increase strictly.
+fn rising(parameters: &[f64]) -> Result<(), Error> {
+    match parameters.windows(2).position(|w| w[1] <= w[0]) {
+        Some(i) => {
+            let text = format!("parameters: parameter {} equals parameter {i}", i + 1);
+            Err(Error::InvalidArgument(text))
+        }
+        None => Ok(()),
     }
-    let fit = least_squares(
-        degree,
-        &averaged_knots(degree, parameters),
-        parameters,
-        points,
-        Ends::Interpolated,
-    )?;
+}
+
+/// Refuses an interpolant that does not interpolate.
+fn checked_interpolant<const N: usize>(fit: Fit<N>, points: &[[f64; N]]) -> Result<Fit<N>, Error> {
     let size = points.iter().fold(0.0, |size: f64, p| size.max(distance(p, &points[0])));
     let scale = points.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
-    if fit.worst > INTERPOLATION_TOLERANCE * size + 8.0 * f64::EPSILON * scale {
-        let text = format!(
-            "parameters: the point at {} is missed by {:e}, the equations are too ill-conditioned",
-            fit.worst_at, fit.worst
-        );
-        return Err(Error::InvalidArgument(text));
+    if fit.worst <= INTERPOLATION_TOLERANCE * size + 8.0 * f64::EPSILON * scale {
+        return Ok(fit);
     }
-    Ok(fit)
+    let (at, missed) = (fit.worst_at, fit.worst);
+    Err(Error::InvalidArgument(format!(
+        "parameters: the point at {at} is missed by {missed:e}, the equations are too ill-conditioned"
+    )))
 }
 
 /// The work of [`least_squares`], for what has been checked, apart from the domain.

@@ -1,8 +1,9 @@
 //! Fits of curves: exact where the data are splines, as near as promised where they are not.
 
 use footpoint::fit::{
-    Adaptive, Ends, Spacing, Spline, adaptive, averaged_knots, interpolate, least_squares,
-    of_function, parameters, spread_knots,
+    Adaptive, Condition, Ends, Spacing, Spline, adaptive, averaged_knots, interpolate,
+    interpolate_periodic, interpolate_with, least_squares, least_squares_periodic, of_function,
+    parameters, spread_knots,
 };
 use proptest::prelude::*;
 
@@ -228,4 +229,97 @@ fn defects_are_named() {
     );
     let options = Adaptive { tolerance: 0.0, ..Adaptive::default() };
     assert!(adaptive(&list, &points, &options).unwrap_err().to_string().contains("tolerance"));
+}
+
+#[test]
+fn tangents_at_the_ends_are_met() {
+    let list = [0.0, 0.2, 0.5, 0.6, 0.9, 1.0, 1.4];
+    let points: Vec<[f64; 3]> = list.iter().map(|&t| helix(t)).collect();
+    let wanted = [[1.0, -2.0, 3.0], [0.0, 5.0, 0.5]];
+    for degree in 2..=6 {
+        for given in [[true, true], [true, false], [false, true], [false, false]] {
+            let tangents = [0, 1].map(|k| given[k].then_some(wanted[k]));
+            let fit =
+                interpolate_with(degree, &list, &points, &Condition::Tangents(tangents)).unwrap();
+            let mut at = [[0.0; 3]; 2];
+            for (k, t) in [0.0, 1.4].into_iter().enumerate() {
+                fit.spline.derivatives(t, 1, &mut at);
+                assert!(!given[k] || gap(at[1], wanted[k]) < 1e-11, "{degree}: {at:?}");
+            }
+            assert!(fit.worst < 1e-13);
+        }
+    }
+    // A cubic is its own interpolant with its own tangents.
+    let cubic = |t: f64| [t * t * t - t, 2.0 * t * t + 1.0];
+    let slope = |t: f64| [3.0 * t * t - 1.0, 4.0 * t];
+    let points: Vec<[f64; 2]> = list.iter().map(|&t| cubic(t)).collect();
+    let condition = Condition::Tangents([Some(slope(0.0)), Some(slope(1.4))]);
+    let fit = interpolate_with(3, &list, &points, &condition).unwrap();
+    assert!(
+        (0..=14).all(|i| gap(fit.spline.evaluate(0.1 * i as f64), cubic(0.1 * i as f64)) < 1e-14)
+    );
+}
+
+#[test]
+fn natural_splines_end_without_bending() {
+    let list = [0.0, 0.2, 0.5, 0.6, 0.9, 1.0, 1.4];
+    let points: Vec<[f64; 3]> = list.iter().map(|&t| helix(t)).collect();
+    for degree in [1, 3, 5] {
+        let fit = interpolate_with(degree, &list, &points, &Condition::Natural).unwrap();
+        assert!(fit.worst < 1e-12);
+        let mut at = [[0.0; 3]; 6];
+        for t in [0.0, 1.4] {
+            fit.spline.derivatives(t, degree, &mut at);
+            for order in degree.div_ceil(2).max(1)..degree {
+                assert!(gap(at[order], [0.0; 3]) < 1e-8, "{degree} {order}: {:?}", at[order]);
+            }
+        }
+    }
+    // Second derivatives of the natural cubic by the classical equations of three moments.
+    let (y, h) = ([0.0, 1.0, 0.0], [1.0, 2.0]);
+    let slopes = [(y[1] - y[0]) / h[0], (y[2] - y[1]) / h[1]];
+    let moment = 6.0 * (slopes[1] - slopes[0]) / (2.0 * (h[0] + h[1]));
+    let fit = interpolate_with(3, &[0.0, 1.0, 3.0], &y.map(|y| [y]), &Condition::Natural).unwrap();
+    let mut at = [[0.0]; 3];
+    fit.spline.derivatives(1.0, 2, &mut at);
+    assert!((at[2][0] - moment).abs() < 1e-13);
+    assert!(interpolate_with(4, &list, &points, &Condition::Natural).is_err());
+}
+
+#[test]
+fn periodic_splines_close_with_all_their_derivatives() {
+    let turn = 2.0 * std::f64::consts::PI;
+    let round = |t: f64| [t.cos() + 0.2 * (3.0 * t).sin(), t.sin()];
+    for degree in 1..=7 {
+        let count = 40;
+        let place = |i: usize| turn * (i as f64 + 0.3 * (i as f64).sin()) / count as f64;
+        let list: Vec<f64> = (0..count).map(place).chain([place(0) + turn]).collect();
+        let points: Vec<[f64; 2]> = list[..count].iter().map(|&t| round(t)).collect();
+        let fit = interpolate_periodic(degree, &list, &points).unwrap();
+        assert!(fit.worst < 1e-12, "{degree}: {}", fit.worst);
+        let (start, end) = fit.spline.knots().domain();
+        assert!((end - start - turn).abs() < 1e-14);
+        let (mut low, mut high) = ([[0.0; 2]; 8], [[0.0; 2]; 8]);
+        fit.spline.derivatives(start, degree, &mut low);
+        fit.spline.derivatives(end, degree, &mut high);
+        for order in 0..degree {
+            let size = 1e-12 * 10f64.powi(order as i32);
+            assert!(gap(low[order], high[order]) < size, "{degree} {order}: {low:?} {high:?}");
+        }
+        assert!(fit.spline.curve().unwrap().is_closed());
+        // As many samples as wished, fewer knots.
+        let many: Vec<f64> = (0..500).map(|i| turn * i as f64 / 500.0).collect();
+        let points: Vec<[f64; 2]> = many.iter().map(|&t| round(t)).collect();
+        let breaks: Vec<f64> = (0..=30).map(|i| turn * i as f64 / 30.0).collect();
+        let near = least_squares_periodic(degree, &breaks, &many, &points).unwrap();
+        assert!(
+            near.worst < [0.1, 0.02, 3e-3, 1e-3, 3e-4, 1e-4, 1e-4][degree - 1],
+            "{degree}: {}",
+            near.worst
+        );
+    }
+    let points = [[0.0], [1.0], [0.5], [0.2]];
+    assert!(interpolate_periodic(3, &[0.0, 1.0, 2.0, 3.0], &points).is_err());
+    assert!(least_squares_periodic(3, &[0.0, 1.0, 2.0], &[0.0; 4], &points).is_err());
+    assert!(least_squares_periodic(1, &[0.0, 1.0, 2.0, 3.0], &[0.0; 4], &points).is_err());
 }
