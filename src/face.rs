@@ -147,6 +147,11 @@ impl Face {
         &self.region
     }
 
+    /// The pcurves of all loops as splines, in order.
+    pub fn pcurves(&self) -> impl Iterator<Item = &Curve> {
+        self.borders.iter().map(Border::pcurve)
+    }
+
     /// The box around the edges in space; the face may bulge out of it.
     pub fn border_box(&self) -> Aabb {
         self.bounds
