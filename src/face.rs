@@ -25,6 +25,8 @@ mod nearest;
 
 mod members;
 
+mod many;
+
 use std::sync::Arc;
 
 use crate::batch::Memory;

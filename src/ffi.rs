@@ -12,6 +12,7 @@
 //!                                                              query.rs, floats.rs, sets.rs, lines.rs
 //!                   -> normal, unwrap                          normals.rs, path.rs
 //!                   -> scene                                   scene.rs, scene_query.rs
+//!                   -> pcurve, face                            pcurve.rs, face.rs
 //!                   -> weights                                 weights.rs, weights_records.rs, weights_report.rs, weights_edit.rs
 //!          <- fpt_status, text of a failure for fpt_last_error
 //! ```
@@ -43,6 +44,8 @@ mod weights_records;
 mod weights_report;
 mod weights;
 mod weights_edit;
+mod pcurve;
+mod face;
 #[cfg(test)]
 mod tests;
 

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::index::IndexedCurve;
 use crate::pcurve::Pcurve;
 use crate::pcurve::compose::Composer;
-use crate::pcurve::lift::{LiftOptions, lift, lift_spline};
+use crate::pcurve::lift::{LiftOptions, lift_spline};
 
 /// Share of the surface's diagonal within which a fitted image stays: a fifth of the accuracy of an answer.
 const FITTED: f64 = 2e-11;
@@ -64,10 +64,7 @@ impl Border {
     ) -> Result<Self, Error> {
         let options = LiftOptions { tolerance: FITTED * diagonal, exact_degree: EXACT };
         let spline = pcurve.as_spline()?;
-        let lifted = match pcurve {
-            Pcurve::Isoline(_) => lift(composer.surface(), pcurve, &options)?,
-            _ => lift_spline(composer, &spline, &options)?,
-        };
+        let lifted = lift_spline(composer, &spline, &options)?;
         let (low, high) = lifted.curve.bounding_box();
         let size = norm(sub(high, low));
         let (image, error) = if size <= POINT * diagonal {

@@ -59,6 +59,21 @@ pub struct Lifted {
     pub exact: bool,
 }
 
+impl Lifted {
+    /// Whether the deviation is proven to be within the tolerance asked for.
+    pub fn is_within(&self, surface: &Surface, options: &LiftOptions) -> bool {
+        self.deviation.bound <= options.tolerance_on(surface)
+    }
+}
+
+impl LiftOptions {
+    fn tolerance_on(&self, surface: &Surface) -> f64 {
+        let (low, high) = surface.bounding_box();
+        let diagonal = crate::bounds::norm(crate::bounds::sub(high, low));
+        if self.tolerance > 0.0 { self.tolerance } else { 1e-7 * diagonal }
+    }
+}
+
 impl Pcurve {
     /// The curve as a spline (u, v, 0) over the same domain. An arc becomes a NURBS of quarter turns, whose parameter is the angle at
     /// the ends of the quarters only.
@@ -118,16 +133,7 @@ pub fn lift(surface: &Surface, pcurve: &Pcurve, options: &LiftOptions) -> Result
         let text = format!("tolerance: {} is not a length", options.tolerance);
         return Err(Error::InvalidArgument(text));
     }
-    let mut composer = Composer::new(surface);
-    let spline = pcurve.as_spline()?;
-    let range = [spline.domain().0, spline.domain().1];
-    if let Pcurve::Isoline(line) = pcurve {
-        composer.check_inside(&spline)?;
-        let curve = isocurve(surface, line)?;
-        let deviation = deviation(&mut composer, &spline, &curve, range, 0.0)?;
-        return Ok(Lifted { curve, deviation, exact: true });
-    }
-    lift_spline(&mut composer, &spline, options)
+    lift_spline(&mut Composer::new(surface), &pcurve.as_spline()?, options)
 }
 
 /// As [`lift`], for a spline of the domain.
@@ -138,6 +144,12 @@ pub(crate) fn lift_spline(
 ) -> Result<Lifted, Error> {
     let surface = composer.surface();
     let range = [spline.domain().0, spline.domain().1];
+    if let Some(line) = isoline(spline) {
+        composer.check_inside(spline)?;
+        let curve = over(&isocurve(surface, &line)?, range)?;
+        let deviation = deviation(composer, spline, &curve, range, 0.0)?;
+        return Ok(Lifted { curve, deviation, exact: true });
+    }
     let degree = spline.degree() * (surface.knots_u().degree() + surface.knots_v().degree());
     if degree <= options.exact_degree.min(MAX_DEGREE) {
         let pieces = composer.compose(spline, range)?;
@@ -147,6 +159,30 @@ pub(crate) fn lift_spline(
     }
     composer.check_inside(spline)?;
     fitted(composer, spline, options)
+}
+
+/// The isoline that a line of the domain is.
+fn isoline(spline: &Curve) -> Option<Isoline> {
+    let [a, b] = spline.poles() else { return None };
+    let fixed = match [a[0] == b[0], a[1] == b[1]] {
+        [true, false] => Direction::U,
+        [false, true] => Direction::V,
+        _ => return None,
+    };
+    let along = fixed.other().index();
+    let is_even = spline.degree() == 1 && !spline.is_rational() && spline.knots().multiplicity(spline.domain().0) == 2;
+    is_even.then(|| Isoline { fixed, at: a[fixed.index()], from: a[along], to: b[along] })
+}
+
+/// The same curve over another domain.
+fn over(curve: &Curve, [start, end]: [f64; 2]) -> Result<Curve, Error> {
+    let (a, b) = curve.domain();
+    if (a, b) == (start, end) {
+        return Ok(curve.clone());
+    }
+    let knots: Vec<f64> =
+        curve.knots().values().iter().map(|t| between(start, end, (t - a) / (b - a))).collect();
+    Curve::new(&knots, curve.degree(), curve.poles(), curve.weights())
 }
 
 fn isocurve(surface: &Surface, line: &Isoline) -> Result<Curve, Error> {
@@ -187,9 +223,7 @@ fn fitted(
     options: &LiftOptions,
 ) -> Result<Lifted, Error> {
     let surface = composer.surface();
-    let (low, high) = surface.bounding_box();
-    let diagonal = crate::bounds::norm(crate::bounds::sub(high, low));
-    let tolerance = if options.tolerance > 0.0 { options.tolerance } else { 1e-7 * diagonal };
+    let tolerance = options.tolerance_on(surface);
     let range = [spline.domain().0, spline.domain().1];
     let [u0, u1, v0, v1] = surface.domain();
     let image = |t: f64| {
