@@ -438,8 +438,6 @@ typedef enum fpt_face_standing {
  */
 typedef struct Deviation Deviation;
 
-typedef struct Option_ShouldStop Option_ShouldStop;
-
 /**
  * A curve. Immutable: any number of threads may use one at a time. The search index is built on first
  * use, by one thread while the others wait. Made by fpt_curve_new or fpt_curve_from_callback, owned by the
@@ -1135,7 +1133,7 @@ typedef struct fpt_pull_options {
     /**
      * Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED. NULL: never.
      */
-    struct Option_ShouldStop should_stop;
+    int (*should_stop)(void *user);
     /**
      * Handed to should_stop as it is.
      */

@@ -4,7 +4,7 @@ use super::curve::{self, fpt_curve};
 use super::form::CurveForm;
 use super::memory::{array, optional_output, place, shared};
 use super::options::{SelfSized, check_length, sized};
-use super::query::{Callbacks, ShouldStop};
+use super::query::Callbacks;
 use super::surface::{self, fpt_surface};
 use super::{Failure, fpt_status, guard};
 use crate::curve::Curve;
@@ -15,7 +15,7 @@ use crate::pcurve::compose::Composer;
 use crate::pcurve::deviation::{Deviation, deviation};
 use crate::pcurve::lift::{EXACT_DEGREE, LiftOptions, lift};
 use crate::pcurve::pull::{PullOptions, Pulled, pulled};
-use std::ffi::c_void;
+use std::ffi::{c_int, c_void};
 use std::mem::{offset_of, size_of};
 use std::sync::Arc;
 
@@ -95,7 +95,7 @@ pub struct fpt_pull_options {
     /// self-intersections. Along a seam the nearer end of the domain is taken. NULL: none. Borrowed during the call.
     pub hint: *const f64,
     /// Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED. NULL: never.
-    pub should_stop: Option<ShouldStop>,
+    pub should_stop: Option<unsafe extern "C" fn(user: *mut c_void) -> c_int>,
     /// Handed to should_stop as it is.
     pub user: *mut c_void,
 }

@@ -3,7 +3,9 @@
 use super::cut::Stretch;
 use super::feet::Sample;
 use super::{PulledPiece, Puller, pulled};
+use crate::bounds::{dot, sub};
 use crate::curve::Curve;
+use crate::elementary::part;
 use crate::error::Error;
 use crate::fit::{Ends, least_squares};
 use crate::pcurve::deviation::{Deviation, deviation};
@@ -46,7 +48,10 @@ impl Puller<'_> {
         }
         let (curve, deviation) = match self.line(stretch)? {
             Some(found) => found,
-            None => self.spline(stretch, poll)?,
+            None => match self.planar(stretch)? {
+                Some(found) => found,
+                None => self.spline(stretch, poll)?,
+            },
         };
         // Not <=: a bound that is NaN proves nothing.
         if !(deviation.bound <= tolerance) {
@@ -149,6 +154,36 @@ impl Puller<'_> {
             }
         }
         Ok(None)
+    }
+
+    /// On a parallelogram the pcurve is the edge in its coordinates, pole by pole.
+    fn planar(&mut self, stretch: &Stretch) -> Result<Option<(Curve, Deviation)>, Error> {
+        let surface = self.shape.surface();
+        let [origin, along_v, along_u, _] = surface.poles() else { return Ok(None) };
+        if surface.is_rational() {
+            return Ok(None);
+        }
+        let (a, b) = (sub(*along_u, *origin), sub(*along_v, *origin));
+        let (aa, ab, bb) = (dot(a, a), dot(a, b), dot(b, b));
+        let det = aa * bb - ab * ab;
+        let edge = part(self.edge, stretch.range)?;
+        let place = |pole: &[f64; 3]| {
+            let x = sub(*pole, *origin);
+            let (ax, bx) = (dot(a, x), dot(b, x));
+            let shares = [(bb * ax - ab * bx) / det, (aa * bx - ab * ax) / det];
+            let [u, v] = [0, 1].map(|k| self.ends[k][0] + shares[k] * self.period(k));
+            [u, v, 0.0]
+        };
+        let poles: Vec<[f64; 3]> = edge.poles().iter().map(place).collect();
+        let Ok(curve) =
+            Curve::new(edge.knots().values(), edge.degree(), &poles, edge.weights())
+        else {
+            return Ok(None);
+        };
+        let goal = self.goal();
+        // An edge that leaves the domain by more than rounding has no such pcurve.
+        let found = deviation(&mut self.composer, &curve, self.edge, stretch.range, ENOUGH * goal);
+        Ok(found.ok().filter(|found| found.bound <= goal).map(|found| (curve, found)))
     }
 
     /// A spline, as near as its poles allow.
