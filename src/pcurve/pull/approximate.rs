@@ -8,7 +8,7 @@ use crate::curve::Curve;
 use crate::elementary::part;
 use crate::error::Error;
 use crate::fit::{Ends, least_squares};
-use crate::pcurve::deviation::{Deviation, deviation};
+use crate::pcurve::deviation::{Deviation, deviation, deviation_at};
 
 /// Samples that a span has beyond its degree.
 const MORE_SAMPLES: usize = 3;
@@ -17,7 +17,7 @@ const MORE_SAMPLES: usize = 3;
 const ENOUGH: f64 = 0.3;
 
 /// An oblique line that is so nearly an isoline, in the tolerance, is made one.
-const NEARLY: f64 = 1e-3;
+const NEARLY: f64 = 0.3;
 
 /// Most parts into which a span is divided at once, and most rounds.
 const MOST_PARTS: f64 = 16.0;
@@ -115,45 +115,60 @@ impl Puller<'_> {
         let (a, b) = (self.end_place(stretch, false), self.end_place(stretch, true));
         let [from, to] = stretch.range;
         let goal = self.goal();
-        let mut tried = Vec::new();
-        let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
-        let speeds = self.speeds(middle);
-        for k in 0..2 {
-            if a[k] != b[k] && (b[k] - a[k]).abs() * speeds[k] <= NEARLY * self.tolerance {
-                let (mut c, mut d) = (a, b);
-                let seam = |end: usize| stretch.ends[end].seam[k];
-                let value = if seam(1) { b[k] } else if seam(0) { a[k] } else { middle[k] };
-                (c[k], d[k]) = (value, value);
-                tried.push((c, d));
+        let mut tried = vec![self.snapped(stretch, a, b)];
+        for (k, end) in stretch.ends.iter().enumerate() {
+            // Along an isoline to a collapsed edge the other parameter stays.
+            if let Some(edge) = end.collapsed {
+                let (mut from, mut to, free) = (a, b, 1 - edge / 2);
+                if k == 0 { from[free] = b[free] } else { to[free] = a[free] }
+                tried.push(self.snapped(stretch, from, to));
             }
         }
-        if let Some(edge) = stretch.ends[0].collapsed {
-            let mut c = b;
-            c[edge / 2] = a[edge / 2];
-            tried.push((c, b));
-        }
-        if let Some(edge) = stretch.ends[1].collapsed {
-            let mut d = a;
-            d[edge / 2] = b[edge / 2];
-            tried.push((a, d));
-        }
         tried.push((a, b));
+        let mut best: Option<(Curve, Deviation)> = None;
         for (a, b) in tried {
             let poles = [[a[0], a[1], 0.0], [b[0], b[1], 0.0]];
             let line = Curve::new(&[from, from, to, to], 1, &poles, None)?;
             // The distance at one place refuses most lines at once.
             let at = from + 0.382 * (to - from);
-            let quick = crate::pcurve::deviation::deviation_at(&self.composer, &line, self.edge, at);
-            if quick > goal {
+            if deviation_at(&self.composer, &line, self.edge, at) > goal {
                 continue;
             }
-            let found =
-                deviation(&mut self.composer, &line, self.edge, stretch.range, ENOUGH * goal)?;
-            if found.bound <= goal {
-                return Ok(Some((line, found)));
+            let found = deviation(&mut self.composer, &line, self.edge, stretch.range, 0.0)?;
+            if found.bound <= goal && best.as_ref().is_none_or(|best| found.bound < best.1.bound) {
+                best = Some((line, found));
             }
         }
-        Ok(None)
+        Ok(best)
+    }
+
+    /// The ends of a line moved to what they nearly are: a value that does not change along it, the ends of the domain, knots, the
+    /// edge's own parameter.
+    fn snapped(&self, stretch: &Stretch, a: [f64; 2], b: [f64; 2]) -> ([f64; 2], [f64; 2]) {
+        let (mut a, mut b) = (a, b);
+        let speeds = self.speeds([0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]);
+        let surface = self.shape.surface();
+        for k in 0..2 {
+            let near = |x: f64, y: f64| (x - y).abs() * speeds[k] <= NEARLY * self.tolerance;
+            let knots = [surface.knots_u(), surface.knots_v()][k];
+            let moved = |x: f64, own: f64| {
+                let place = knots.values().partition_point(|&knot| knot < x);
+                let around = [place.checked_sub(1), Some(place)].into_iter().flatten();
+                let beside = around.filter_map(|i| knots.values().get(i).copied());
+                let inside = beside.chain([own]).filter(|y| knots.contains(*y));
+                let nearest = inside.min_by(|y, z| (x - y).abs().total_cmp(&(x - z).abs()));
+                nearest.filter(|&y| near(x, y)).unwrap_or(x)
+            };
+            if near(a[k], b[k]) {
+                let middle = 0.5 * (a[k] + b[k]);
+                let seam = |end: usize| stretch.ends[end].seam[k];
+                let value = if seam(1) { b[k] } else if seam(0) { a[k] } else { moved(middle, f64::NAN) };
+                (a[k], b[k]) = (value, value);
+            } else {
+                (a[k], b[k]) = (moved(a[k], stretch.range[0]), moved(b[k], stretch.range[1]));
+            }
+        }
+        (a, b)
     }
 
     /// On a parallelogram the pcurve is the edge in its coordinates, pole by pole.
