@@ -95,8 +95,8 @@ fn nothing_of_a_face_is_nearer_than_the_answer_or_its_bound() {
     let (mut proven, mut total, mut inside) = (0, 0, 0);
     for seed in 1..=12 {
         let face = random_face(seed);
-        let all = samples(&face, 160);
-        assert!(all.len() > 4000);
+        let all = samples(&face, 120);
+        assert!(all.len() > 2000);
         let mut r = Random(seed + 100);
         for _ in 0..60 {
             let query = [r.between(-1.0, 5.0), r.between(-1.0, 5.0), r.between(-3.0, 3.0)];
@@ -193,7 +193,7 @@ fn sides_agree_with_a_fine_polygon_and_edges_with_their_distance() {
         let _ = (0..25).map(|_| r.between(-1.5, 1.5)).count();
         let mut workspace = FaceWorkspace::default();
         let options = QueryOptions { tolerance: 1e-3, ..QueryOptions::default() };
-        for _ in 0..300 {
+        for _ in 0..60 {
             let at = [r.between(0.0, 1.0), r.between(0.0, 1.0)];
             let place = face.classify(at, &options, &mut workspace);
             let point = surface.evaluate(at[0], at[1]);
@@ -201,11 +201,11 @@ fn sides_agree_with_a_fine_polygon_and_edges_with_their_distance() {
             match place.standing {
                 Standing::Inside => assert_eq!(side, Side::Inside),
                 Standing::Outside => assert_eq!(side, Side::Outside),
-                Standing::OnEdge => assert!(edge_distance(&face, point) <= 1e-3 * (1.0 + 1e-6)),
+                Standing::OnEdge => assert!(edge_distance(&face, point) <= 1e-3 * (1.0 + 1e-4)),
                 Standing::Unknown => panic!("{at:?}"),
             }
             if place.standing != Standing::OnEdge {
-                assert!(edge_distance(&face, point) > 1e-3 * (1.0 - 1e-6));
+                assert!(edge_distance(&face, point) > 1e-3 * (1.0 - 1e-4));
             }
         }
     }
@@ -218,15 +218,15 @@ fn edge_distance(face: &Face, point: Vector) -> f64 {
     for curve in face.pcurves() {
         let (a, b) = curve.domain();
         let at = |k: f64| {
-            let [u, v, _] = curve.evaluate((a + (b - a) * k / 4000.0).clamp(a, b));
+            let [u, v, _] = curve.evaluate((a + (b - a) * k / 1500.0).clamp(a, b));
             norm(sub(surface.evaluate(u, v), point))
         };
-        let nearest = (0..=4000)
+        let nearest = (0..=1500)
             .map(f64::from)
             .min_by(|i, j| at(*i).total_cmp(&at(*j)))
             .unwrap();
         for k in -100..=100 {
-            best = best.min(at((nearest + f64::from(k) / 100.0).clamp(0.0, 4000.0)));
+            best = best.min(at((nearest + f64::from(k) / 100.0).clamp(0.0, 1500.0)));
         }
     }
     best

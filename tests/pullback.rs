@@ -5,7 +5,9 @@ mod known_shapes;
 use footpoint::curve::Curve;
 use footpoint::fit::{Adaptive, of_function};
 use footpoint::index::IndexedSurface;
+use footpoint::pcurve::lift::{LiftOptions, lift};
 use footpoint::pcurve::pull::{PullOptions, Pulled, pulled};
+use footpoint::pcurve::{Direction, Pcurve};
 use footpoint::surface::Surface;
 use known_shapes::{Vector, norm, sphere, sub, torus};
 
@@ -243,4 +245,85 @@ fn an_edge_beside_the_surface_is_told_and_a_point_refused() {
     assert!(refused.to_string().starts_with("edge: it is a single point"));
     let options = PullOptions { tolerance: f64::NAN, ..PullOptions::default() };
     assert!(cylinder.pull(&point, &options, &mut || false).is_err());
+}
+
+fn hill() -> Surface {
+    let knots = [0., 0., 0., 0., 0.3, 1., 1., 1., 1.];
+    let mut poles = Vec::new();
+    let mut weights = Vec::new();
+    for i in 0..5 {
+        for j in 0..5 {
+            poles.push([f64::from(i), f64::from(j), f64::from((i * 3 + j * 2) % 5) * 0.4]);
+            weights.push(1.0 + 0.2 * f64::from((i + 2 * j) % 3));
+        }
+    }
+    Surface::new(&knots, &knots, 3, 3, &poles, 5, 5, Some(&weights)).unwrap()
+}
+
+/// The image is within its bound of the surface's points, at equal parameters.
+fn check_image(surface: &Surface, pcurve: &Pcurve, options: &LiftOptions, exact: bool, limit: f64) {
+    let spline = pcurve.as_spline().unwrap();
+    let lifted = lift(surface, pcurve, options).unwrap();
+    assert_eq!(lifted.exact, exact);
+    assert!(lifted.deviation.bound <= limit, "{:?}", lifted.deviation);
+    let (a, b) = spline.domain();
+    assert_eq!(lifted.curve.domain(), (a, b));
+    for k in 0..=2000 {
+        let t = (a + (b - a) * f64::from(k) / 2000.0).clamp(a, b);
+        let [u, v, _] = spline.evaluate(t);
+        let apart = norm(sub(surface.evaluate(u, v), lifted.curve.evaluate(t)));
+        assert!(apart <= lifted.deviation.bound + 1e-14, "{t} {apart} {:?}", lifted.deviation);
+    }
+}
+
+#[test]
+fn images_are_exact_where_degrees_allow_and_proven_elsewhere() {
+    let surface = hill();
+    let usual = LiftOptions { tolerance: 1e-8, ..LiftOptions::default() };
+    for (from, to) in [(0.1, 0.8), (0.9, 0.0)] {
+        let isoline = Pcurve::isoline(Direction::U, 0.4, from, to).unwrap();
+        check_image(&surface, &isoline, &usual, true, 1e-12);
+    }
+    let line = Pcurve::polyline(&[[0.1, 0.9], [0.7, 0.2], [0.75, 0.9]]).unwrap();
+    check_image(&surface, &line, &usual, true, 1e-12);
+    let poles = [[0.1, 0.2, 0.0], [0.5, 1.0, 0.0], [0.6, 0.0, 0.0], [0.9, 0.8, 0.0]];
+    let weights = [1.0, 2.0, 0.7, 1.0];
+    let cubic = Curve::new(&[0., 0., 0., 0., 2., 2., 2., 2.], 3, &poles, Some(&weights)).unwrap();
+    let cubic = Pcurve::spline(cubic).unwrap();
+    check_image(&surface, &cubic, &usual, false, 1e-8);
+    let composed = LiftOptions { exact_degree: 18, ..usual };
+    check_image(&surface, &cubic, &composed, true, 1e-12);
+    let arc = Pcurve::arc([0.5, 0.5], [0.4, 0.1], [-0.1, 0.3], [0.2, 5.9]).unwrap();
+    check_image(&surface, &arc, &usual, false, 1e-8);
+}
+
+#[test]
+fn what_is_lifted_is_pulled_back() {
+    let surface = IndexedSurface::new(hill());
+    let arc = Pcurve::arc([0.5, 0.5], [0.4, 0.1], [-0.1, 0.3], [0.2, 5.9]).unwrap();
+    let fine = LiftOptions { tolerance: 1e-9, ..LiftOptions::default() };
+    let image = lift(surface.surface(), &arc, &fine).unwrap().curve;
+    for (tolerance, degree) in [(1e-4, 3), (1e-6, 3), (1e-7, 5), (1e-7, 2)] {
+        let options = PullOptions { tolerance, degree, ..PullOptions::default() };
+        let found = surface.pull(&image, &options, &mut || false).unwrap();
+        check(&surface, &image, &found, tolerance);
+        assert_eq!(found.pieces.len(), 1);
+        let (ours, given) = (&found.pieces[0].curve, arc.as_spline().unwrap());
+        for k in 0..=100 {
+            let t = 0.2 + 5.7 * f64::from(k) / 100.0;
+            assert!(norm(sub(ours.evaluate(t.min(5.9)), given.evaluate(t.min(5.9)))) < 10.0 * tolerance);
+        }
+    }
+}
+
+#[test]
+fn a_curve_that_leaves_the_domain_is_refused_with_the_place() {
+    let surface = hill();
+    let text = |pcurve: &Pcurve| {
+        lift(&surface, pcurve, &LiftOptions::default()).unwrap_err().to_string()
+    };
+    let line = Pcurve::polyline(&[[0.1, 0.9], [1.2, 0.2]]).unwrap();
+    assert_eq!(text(&line), "pcurve: at 1.0 it leaves the domain, u = 1.2");
+    let isoline = Pcurve::isoline(Direction::V, -0.5, 0.0, 1.0).unwrap();
+    assert_eq!(text(&isoline), "pcurve: at 0.0 it leaves the domain, v = -0.5");
 }

@@ -101,12 +101,37 @@ class WeightsConicShape(ctypes.Structure):
     _fields_ = [("weight", c_double), ("rho", c_double), ("eccentricity", c_double)]
 
 
+class Deviation(ctypes.Structure):
+    _fields_ = [("bound", c_double), ("reached", c_double), ("at", c_double), ("flags", c_uint32), ("reserved", c_uint32)]
+
+
+class PullOptions(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("tolerance", c_double), ("degree", c_size_t), ("pole_limit", c_size_t), ("hint", c_void_p),
+                ("should_stop", StopFunction), ("user", c_void_p)]
+
+
+class LiftOptions(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("tolerance", c_double), ("exact_degree", c_size_t)]
+
+
+class FacePlace(ctypes.Structure):
+    _fields_ = [("standing", c_uint32), ("loop_index", c_uint32), ("coedge_index", c_uint32), ("reserved", c_uint32),
+                ("parameter", c_double)]
+
+
+class FaceData(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("surface", c_void_p), ("loop_count", c_size_t), ("coedge_counts", c_void_p),
+                ("pcurves", c_void_p)]
+
+
 STRUCTS: dict[str, type[ctypes.Structure]] = {
     "fpt_curve_data": CurveData, "fpt_surface_data": SurfaceData, "fpt_curve_callback": CurveCallback,
     "fpt_surface_callback": SurfaceCallback, "fpt_query_options": QueryOptions, "fpt_extrema_options": ExtremaOptions,
     "fpt_foot_point": FootPoint, "fpt_foot_member": FootMember, "fpt_scene_member": SceneMember, "fpt_scene_data": SceneData,
     "fpt_weights_options": WeightsOptions, "fpt_weights_constraint": WeightsConstraint, "fpt_weights_pole": WeightsPole,
     "fpt_weights_outcome": WeightsOutcome, "fpt_weights_summary": WeightsSummary, "fpt_weights_conic_shape": WeightsConicShape,
+    "fpt_deviation": Deviation, "fpt_pull_options": PullOptions, "fpt_lift_options": LiftOptions, "fpt_face_place": FacePlace,
+    "fpt_face_data": FaceData,
 }
 
 # One letter an argument: p pointer (arrays, handles, structs), z size_t, d double, I uint32_t, i int32_t.
@@ -137,12 +162,15 @@ _STATUS = {
     "weights_report_surface": "pp", "weights_move_point": "pdzdp", "weights_through_point": "pzpdpp", "weights_conic": "ppp",
     "weights_of_rho": "dp", "weights_of_eccentricity": "pdpp", "weights_normalise": "pzIp", "weights_bound": "pzdp",
     "weights_standard_form": "pp", "weights_positive_form": "zzppp",
+    "pcurve_pull": "pppp", "pcurve_set_count": "pp", "pcurve_set_get": "pzpp", "pcurve_lift": "ppppp", "pcurve_deviation": "pppp",
+    "face_new": "pp", "face_classify": "ppzpp", "face_closest": "ppzppp", "face_preimage": "ppdpp",
 }
 _OTHER = {
     "last_error": ("", c_char_p), "status_name": ("i", c_char_p), "version": ("", c_uint32), "abi_version": ("", c_uint32),
     "query_options_init": ("pz", None), "extrema_options_init": ("pz", None),
     "weights_options_init": ("pz", None), "weights_report_free": ("p", None), "curve_free": ("p", None),
     "surface_free": ("p", None), "foot_set_free": ("p", None), "scene_free": ("p", None),
+    "pull_options_init": ("pz", None), "lift_options_init": ("pz", None), "pcurve_set_free": ("p", None), "face_free": ("p", None),
 }
 PROTOTYPES = {name: (letters, c_int32) for name, letters in _STATUS.items()} | _OTHER
 

@@ -16,7 +16,7 @@ use crate::curve::Curve;
 use crate::error::Error;
 
 /// A bound is sharp enough when it exceeds a value that is taken by less than this share.
-const SHARP: f64 = 0.05;
+const SHARP: f64 = 1e-3;
 
 /// Most halvings of one request.
 const MOST_HALVINGS: usize = 4_000;

@@ -19,6 +19,10 @@ const ENOUGH: f64 = 0.3;
 /// An oblique line that is so nearly an isoline, in the tolerance, is made one.
 const NEARLY: f64 = 0.3;
 
+/// Share of the tolerance from which on the edge's own distance counts, and how much more than that the bound of a fit may be.
+const OWN: f64 = 0.5;
+const OFF: f64 = 1.002;
+
 /// Most parts into which a span is divided at once, and most rounds.
 const MOST_PARTS: f64 = 16.0;
 const ROUNDS: usize = 40;
@@ -60,10 +64,10 @@ impl Puller<'_> {
         Ok(PulledPiece { curve, deviation, flags })
     }
 
-    /// What a fit must reach: the tolerance, or the edge's own distance and a tenth of it.
+    /// What a fit must reach: the tolerance; for an edge that is off the surface, its own distance and the tolerance.
     fn goal(&self) -> f64 {
         let own = self.samples.iter().fold(0.0, |most: f64, sample| most.max(sample.distance));
-        self.tolerance.max(1.05 * own + 0.1 * self.tolerance)
+        if own > OWN * self.tolerance { OFF * own + self.tolerance } else { self.tolerance }
     }
 
     /// Parameters of a sample on a stretch.

@@ -48,7 +48,8 @@ impl Puller<'_> {
             if feet.len() % 32 == 0 && poll() {
                 return Err(Error::Cancelled);
             }
-            feet.push(self.global(t, None));
+            let hint = feet.last().map(|foot| [foot.u, foot.v]);
+            feet.push(self.global(t, hint));
         }
         if let Some(hint) = hint {
             self.begin_at(hint, parameters[0], &mut feet[0]);
