@@ -18,7 +18,13 @@ use footpoint::trim::{Coedge, Loop, Support, TrimmedSurface};
 use shapes::{Random, Vector, norm, sub};
 
 /// A closed cubic around a centre: `count` poles at random radii.
-fn blob(center: [f64; 2], radius: [f64; 2], count: usize, clockwise: bool, r: &mut Random) -> Curve {
+fn blob(
+    center: [f64; 2],
+    radius: [f64; 2],
+    count: usize,
+    clockwise: bool,
+    r: &mut Random,
+) -> Curve {
     let mut poles: Vec<Vector> = (0..count)
         .map(|k| {
             let angle = std::f64::consts::TAU * k as f64 / count as f64;
@@ -176,7 +182,10 @@ fn a_continuum_of_feet_is_answered_by_what_the_face_has_of_it() {
         let face = face_of(surface.clone(), vec![Loop::outer(sides.map(coedge).into())]);
         let (foot, _) = ask(&face, [0.0, 0.0, 0.1]);
         assert!((foot.distance - 1.0).abs() < 1e-12 && foot.flags & flag::NOT_PROVEN == 0);
-        assert_eq!(face.region().side([foot.u, foot.v], &mut Halving::default()) != Side::Outside, inside);
+        assert_eq!(
+            face.region().side([foot.u, foot.v], &mut Halving::default()) != Side::Outside,
+            inside
+        );
         // Beyond the end the nearest is a whole circle of the border.
         let (foot, place) = ask(&face, [0.0, 0.0, 0.9]);
         assert!((foot.distance - (1.0f64 + 0.09).sqrt()).abs() < 1e-12);
@@ -221,10 +230,7 @@ fn edge_distance(face: &Face, point: Vector) -> f64 {
             let [u, v, _] = curve.evaluate((a + (b - a) * k / 1500.0).clamp(a, b));
             norm(sub(surface.evaluate(u, v), point))
         };
-        let nearest = (0..=1500)
-            .map(f64::from)
-            .min_by(|i, j| at(*i).total_cmp(&at(*j)))
-            .unwrap();
+        let nearest = (0..=1500).map(f64::from).min_by(|i, j| at(*i).total_cmp(&at(*j))).unwrap();
         for k in -100..=100 {
             best = best.min(at((nearest + f64::from(k) / 100.0).clamp(0.0, 1500.0)));
         }
@@ -239,9 +245,8 @@ fn the_whole_of_a_sphere_has_its_seam_and_its_poles_as_edges() {
     let trimmed = TrimmedSurface::whole(support).unwrap();
     let face = Face::new(&trimmed, &mut || false).unwrap();
     let mut workspace = FaceWorkspace::default();
-    let mut classify = |u: f64, v: f64| {
-        face.classify([u, v], &QueryOptions::default(), &mut workspace).standing
-    };
+    let mut classify =
+        |u: f64, v: f64| face.classify([u, v], &QueryOptions::default(), &mut workspace).standing;
     assert_eq!(classify(1.3, 0.7), Standing::Inside);
     assert_eq!(classify(0.0, 0.7), Standing::OnEdge);
     assert_eq!(classify(4.0, 0.7), Standing::OnEdge);

@@ -51,11 +51,7 @@ fn a_curve_over_both_seams_of_a_torus_is_cut_at_each() {
     // Twice round the tube and once round the axis; at t = 0 away from both seams.
     let at = |t: f64| {
         let (a, b) = (0.3 + t, 0.7 + 2.0 * t);
-        [
-            (2.0 + 0.5 * b.cos()) * a.cos(),
-            (2.0 + 0.5 * b.cos()) * a.sin(),
-            0.5 * b.sin(),
-        ]
+        [(2.0 + 0.5 * b.cos()) * a.cos(), (2.0 + 0.5 * b.cos()) * a.sin(), 0.5 * b.sin()]
     };
     let edge = edge(at, [0.0, 2.0 * std::f64::consts::PI]);
     let found = pull(&torus, &edge, 1e-7);
@@ -181,7 +177,8 @@ fn ribbon(turns: usize) -> IndexedSurface {
     let (from, to) = (0.0, turns as f64 * 2.0 * std::f64::consts::PI);
     let options = Adaptive { degree: 5, tolerance: 1e-9, ..Adaptive::default() };
     let row = |r: f64, z: f64| {
-        let helix = move |t: f64| Some([r * t.cos(), r * t.sin(), z + 0.12 * t / 6.283185307179586]);
+        let helix =
+            move |t: f64| Some([r * t.cos(), r * t.sin(), z + 0.12 * t / 6.283185307179586]);
         of_function(helix, [from, to], &options).unwrap().spline
     };
     let (inner, outer) = (row(1.0, 0.0), row(1.1, 0.05));
@@ -311,7 +308,9 @@ fn what_is_lifted_is_pulled_back() {
         let (ours, given) = (&found.pieces[0].curve, arc.as_spline().unwrap());
         for k in 0..=100 {
             let t = 0.2 + 5.7 * f64::from(k) / 100.0;
-            assert!(norm(sub(ours.evaluate(t.min(5.9)), given.evaluate(t.min(5.9)))) < 10.0 * tolerance);
+            assert!(
+                norm(sub(ours.evaluate(t.min(5.9)), given.evaluate(t.min(5.9)))) < 10.0 * tolerance
+            );
         }
     }
 }
@@ -319,9 +318,8 @@ fn what_is_lifted_is_pulled_back() {
 #[test]
 fn a_curve_that_leaves_the_domain_is_refused_with_the_place() {
     let surface = hill();
-    let text = |pcurve: &Pcurve| {
-        lift(&surface, pcurve, &LiftOptions::default()).unwrap_err().to_string()
-    };
+    let text =
+        |pcurve: &Pcurve| lift(&surface, pcurve, &LiftOptions::default()).unwrap_err().to_string();
     let line = Pcurve::polyline(&[[0.1, 0.9], [1.2, 0.2]]).unwrap();
     assert_eq!(text(&line), "pcurve: at 1.0 it leaves the domain, u = 1.2");
     let isoline = Pcurve::isoline(Direction::V, -0.5, 0.0, 1.0).unwrap();

@@ -46,7 +46,7 @@ class Face(Owner):
     >>> triangle = footpoint.Curve(1, [0, 0, 1, 2, 3, 3], [[0, 0], [1, 0], [0, 1], [0, 0]])
     >>> face = footpoint.Face(square, [[triangle]])
     >>> feet, places = face.closest([[1, 1, 2], [4, 4, 0]])
-    >>> feet.point.tolist(), [footpoint.Standing(s).name for s in places["standing"]]
+    >>> feet.point.round(9).tolist(), [footpoint.Standing(s).name for s in places["standing"]]
     ([[1.0, 1.0, 0.0], [2.0, 2.0, 0.0]], ['INSIDE', 'ON_EDGE'])
     """
 

@@ -138,7 +138,8 @@ impl Border {
         let towards = sub(middle, query);
         let length = norm(towards);
         let direction = if length > 0.0 { scaled(towards, 1.0 / length) } else { [1.0, 0.0, 0.0] };
-        let within = limit.is_finite().then_some(Within { distance: limit + self.error, direction });
+        let within =
+            limit.is_finite().then_some(Within { distance: limit + self.error, direction });
         let found = curve.closest_within(query, None, within, &asked, &mut workspace.shape);
         let lower_bound = (found.foot.lower_bound - self.error).max(0.0);
         let (t, distance) = if found.foot.distance.is_nan() {

@@ -91,7 +91,8 @@ impl Face {
                 lower_bound = lower_bound.min(key);
                 break;
             }
-            let Some(found) = self.borders[k].nearest(self, query, limit, options, workspace) else {
+            let Some(found) = self.borders[k].nearest(self, query, limit, options, workspace)
+            else {
                 lower_bound = lower_bound.min(key);
                 continue;
             };
@@ -99,7 +100,9 @@ impl Face {
             lower_bound = lower_bound.min(found.lower_bound);
             let is_better = found.distance < limit;
             let tied = (found.distance - limit).abs() <= accuracy
-                && best.as_ref().is_some_and(|best| self.are_apart(query, best, k, &found, accuracy));
+                && best
+                    .as_ref()
+                    .is_some_and(|best| self.are_apart(query, best, k, &found, accuracy));
             let mut flags = if tied { flag::TIE } else { 0 };
             if !is_better {
                 if let Some(best) = &mut best {
@@ -214,8 +217,7 @@ impl Face {
             budget: options.budget,
             ..ExtremaOptions::default()
         };
-        let mut found =
-            Stationary { foot: None, lower_bound: f64::INFINITY, exhausted: false };
+        let mut found = Stationary { foot: None, lower_bound: f64::INFINITY, exhausted: false };
         let Ok(set) = self.shape.extrema(query, &asked, &mut || false) else {
             return Stationary { lower_bound: 0.0, ..found };
         };

@@ -152,7 +152,8 @@ impl Default for fpt_lift_options {
 
 // SAFETY: repr(C), begins with struct_size; numbers.
 unsafe impl SelfSized for fpt_lift_options {
-    const SHORTER: &'static [usize] = &[offset_of!(Self, tolerance), offset_of!(Self, exact_degree)];
+    const SHORTER: &'static [usize] =
+        &[offset_of!(Self, tolerance), offset_of!(Self, exact_degree)];
 
     fn defaults() -> Self {
         Self::default()
@@ -253,8 +254,7 @@ pub unsafe extern "C" fn fpt_pcurve_pull(
             return Err(Failure::Null("edge"));
         }
         let edge = curve::indexed(edge)?.curve();
-        let given =
-            if options.is_null() { Default::default() } else { sized("options", options)? };
+        let given = if options.is_null() { Default::default() } else { sized("options", options)? };
         check_length("tolerance", given.tolerance)?;
         let hint = if given.hint.is_null() {
             None

@@ -176,7 +176,13 @@ impl Part {
             let beyond = pcurve.evaluate(t)[k] - knot;
             if (beyond > 0.0) == (last > 0.0) { high = t } else { low = t }
         }
-        if low > a { low } else if high < b { high } else { middle }
+        if low > a {
+            low
+        } else if high < b {
+            high
+        } else {
+            middle
+        }
     }
 }
 
@@ -213,9 +219,12 @@ impl<'a> Composer<'a> {
     fn check_ends(&self, part: &Part) -> Result<(), Error> {
         for (k, knots) in self.knots().into_iter().enumerate() {
             let ((start, end), slack) = (knots.domain(), self.slack(part, k));
-            for (pole, t) in part.poles.iter().zip([part.range[0]]).chain(
-                part.poles.iter().rev().zip([part.range[1]]),
-            ) {
+            for (pole, t) in part
+                .poles
+                .iter()
+                .zip([part.range[0]])
+                .chain(part.poles.iter().rev().zip([part.range[1]]))
+            {
                 if !(start - slack..=end + slack).contains(&pole[k]) {
                     let name = ["u", "v"][k];
                     return Err(Error::InvalidArgument(format!(

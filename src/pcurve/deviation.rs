@@ -71,7 +71,8 @@ impl Gap {
         let target = [0, 1, 2].map(|c| column(&curve.numerator, c));
         let weights = [raised(piece.weights.clone()), raised(curve.weights.clone())];
         let difference = [0, 1, 2].map(|c| {
-            let (mut ours, theirs) = (product(&image[c], &weights[1]), product(&target[c], &weights[0]));
+            let (mut ours, theirs) =
+                (product(&image[c], &weights[1]), product(&target[c], &weights[0]));
             ours.iter_mut().zip(theirs).for_each(|(a, b)| *a -= b);
             lowered(ours)
         });

@@ -170,7 +170,9 @@ fn isoline(spline: &Curve) -> Option<Isoline> {
         _ => return None,
     };
     let along = fixed.other().index();
-    let is_even = spline.degree() == 1 && !spline.is_rational() && spline.knots().multiplicity(spline.domain().0) == 2;
+    let is_even = spline.degree() == 1
+        && !spline.is_rational()
+        && spline.knots().multiplicity(spline.domain().0) == 2;
     is_even.then(|| Isoline { fixed, at: a[fixed.index()], from: a[along], to: b[along] })
 }
 
@@ -217,11 +219,7 @@ fn joined(pieces: &[Piece], rational: bool) -> Result<Curve, Error> {
 }
 
 /// A spline near the image.
-fn fitted(
-    composer: &mut Composer,
-    spline: &Curve,
-    options: &LiftOptions,
-) -> Result<Lifted, Error> {
+fn fitted(composer: &mut Composer, spline: &Curve, options: &LiftOptions) -> Result<Lifted, Error> {
     let surface = composer.surface();
     let tolerance = options.tolerance_on(surface);
     let range = [spline.domain().0, spline.domain().1];

@@ -174,8 +174,7 @@ impl<'a> Puller<'a> {
         let by_default = if tolerance < 1e-8 * diagonal { 5 } else { 3 };
         let [u0, u1, v0, v1] = shape.surface().domain();
         let ends = [[u0, u1], [v0, v1]];
-        let near_end =
-            |k: usize, hint: [f64; 2]| ends[k][1] - hint[k] < hint[k] - ends[k][0];
+        let near_end = |k: usize, hint: [f64; 2]| ends[k][1] - hint[k] < hint[k] - ends[k][0];
         Self {
             high: [0, 1].map(|k| options.hint.is_some_and(|hint| near_end(k, hint))),
             shape,

@@ -124,7 +124,11 @@ impl Puller<'_> {
             // Along an isoline to a collapsed edge the other parameter stays.
             if let Some(edge) = end.collapsed {
                 let (mut from, mut to, free) = (a, b, 1 - edge / 2);
-                if k == 0 { from[free] = b[free] } else { to[free] = a[free] }
+                if k == 0 {
+                    from[free] = b[free]
+                } else {
+                    to[free] = a[free]
+                }
                 tried.push(self.snapped(stretch, from, to));
             }
         }
@@ -166,7 +170,13 @@ impl Puller<'_> {
             if near(a[k], b[k]) {
                 let middle = 0.5 * (a[k] + b[k]);
                 let seam = |end: usize| stretch.ends[end].seam[k];
-                let value = if seam(1) { b[k] } else if seam(0) { a[k] } else { moved(middle, f64::NAN) };
+                let value = if seam(1) {
+                    b[k]
+                } else if seam(0) {
+                    a[k]
+                } else {
+                    moved(middle, f64::NAN)
+                };
                 (a[k], b[k]) = (value, value);
             } else {
                 (a[k], b[k]) = (moved(a[k], stretch.range[0]), moved(b[k], stretch.range[1]));
@@ -194,8 +204,7 @@ impl Puller<'_> {
             [u, v, 0.0]
         };
         let poles: Vec<[f64; 3]> = edge.poles().iter().map(place).collect();
-        let Ok(curve) =
-            Curve::new(edge.knots().values(), edge.degree(), &poles, edge.weights())
+        let Ok(curve) = Curve::new(edge.knots().values(), edge.degree(), &poles, edge.weights())
         else {
             return Ok(None);
         };
@@ -223,8 +232,7 @@ impl Puller<'_> {
             let (mut next, mut failed) = (vec![knots[0]], false);
             for pair in knots.windows(2) {
                 let range = [pair[0].t, pair[1].t];
-                let found =
-                    deviation(&mut self.composer, &curve, self.edge, range, ENOUGH * goal)?;
+                let found = deviation(&mut self.composer, &curve, self.edge, range, ENOUGH * goal)?;
                 whole = whole.max(found);
                 if !(found.bound <= goal) && range[1] - range[0] > shortest {
                     failed = true;

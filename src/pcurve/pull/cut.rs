@@ -72,7 +72,8 @@ impl Puller<'_> {
         let meetings = self.meetings(poll)?;
         let mut stretches = Vec::new();
         let all = std::mem::take(&mut self.samples);
-        let mut bounds: Vec<(f64, Option<usize>)> = meetings.iter().map(|m| (m.t, Some(m.edge))).collect();
+        let mut bounds: Vec<(f64, Option<usize>)> =
+            meetings.iter().map(|m| (m.t, Some(m.edge))).collect();
         if bounds.first().is_none_or(|first| first.0 > start) {
             bounds.insert(0, (start, None));
         }
@@ -86,9 +87,8 @@ impl Puller<'_> {
             self.samples = all.iter().filter(inside).copied().collect();
             if self.samples.is_empty() {
                 let middle = range[0] + 0.5 * (range[1] - range[0]);
-                let nearest = all.iter().min_by(|a, b| {
-                    (a.t - middle).abs().total_cmp(&(b.t - middle).abs())
-                });
+                let nearest =
+                    all.iter().min_by(|a, b| (a.t - middle).abs().total_cmp(&(b.t - middle).abs()));
                 let Some(&nearest) = nearest else { continue };
                 let sample = self.foot_between(&nearest, &nearest, middle);
                 self.samples.push(sample);
@@ -137,7 +137,8 @@ impl Puller<'_> {
         crossings.sort_by(|a, b| a.t.total_cmp(&b.t));
         crossings.retain(|c| range[0] < c.t && c.t < range[1]);
         crossings.dedup_by(|b, a| {
-            let same = b.seam != a.seam && self.apart(b.t, self.edge.evaluate(a.t)) <= SNAP * self.tolerance
+            let same = b.seam != a.seam
+                && self.apart(b.t, self.edge.evaluate(a.t)) <= SNAP * self.tolerance
                 || b.t == a.t;
             if same {
                 a.seam = [a.seam[0] || b.seam[0], a.seam[1] || b.seam[1]];

@@ -59,7 +59,8 @@ impl Puller<'_> {
             let Some(&first) = wide.first() else { return Ok(()) };
             if round == ROUNDS || parameters.len() > 2 * MOST_SAMPLES {
                 let t = parameters[first];
-                let text = format!("edge: behind {t:?} its foot jumps to another branch of the surface");
+                let text =
+                    format!("edge: behind {t:?} its foot jumps to another branch of the surface");
                 return Err(Error::InvalidArgument(text));
             }
             for &k in wide.iter().rev() {
