@@ -117,7 +117,7 @@ static void a_lifted_curve_is_pulled_back_to_itself(void) {
     fpt_lift_options_init(&lift, sizeof lift);
     lift.tolerance = 1e-8;
     CHECK_OK(fpt_pcurve_lift(surface, pcurve, &lift, &image, &told));
-    CHECK(told.bound <= 1e-8 && told.reached <= told.bound && !(told.flags & (FPT_PCURVE_EXACT | FPT_PCURVE_NOT_PROVEN)));
+    CHECK(told.bound <= 1e-8 && told.reached <= told.bound && !(told.flags & (FPT_DEVIATION_EXACT | FPT_DEVIATION_NOT_PROVEN)));
     CHECK_OK(fpt_pcurve_deviation(surface, pcurve, image, &again));
     CHECK(again.bound <= 1e-8 && again.flags == 0);
     fpt_pull_options_init(&pull, sizeof pull);

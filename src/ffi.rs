@@ -14,6 +14,8 @@
 //!                   -> scene                                   scene.rs, scene_query.rs
 //!                   -> pcurve, face                            pcurve.rs, face.rs
 //!                   -> weights                                 weights.rs, weights_records.rs, weights_report.rs, weights_edit.rs
+//!                   -> transform, trim                         transform.rs, support.rs, trim.rs, trim_parts.rs,
+//!                                                              trim_change.rs, trim_report.rs
 //!          <- fpt_status, text of a failure for fpt_last_error
 //! ```
 //!
@@ -46,6 +48,12 @@ mod weights;
 mod weights_edit;
 mod pcurve;
 mod face;
+mod transform;
+mod support;
+mod trim;
+mod trim_parts;
+mod trim_change;
+mod trim_report;
 #[cfg(test)]
 mod tests;
 

@@ -59,6 +59,8 @@ pub mod fit;
 
 pub mod elementary;
 
+pub mod transform;
+
 pub mod pcurve;
 
 pub mod trim;

@@ -25,28 +25,14 @@ use crate::curve::{Curve, box_of};
 use crate::elementary::quadrant_exact;
 use crate::error::Error;
 use crate::knots::{Knots, MAX_MAGNITUDE};
+use crate::transform::between;
+
+pub use crate::operate::Direction;
 
 /// A place in the parameter plane.
 pub type Parameters = [f64; 2];
 
-/// One of the two parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Direction {
-    /// The first one.
-    U,
-    /// The second one.
-    V,
-}
-
 impl Direction {
-    /// 0 for u, 1 for v.
-    pub fn index(self) -> usize {
-        match self {
-            Self::U => 0,
-            Self::V => 1,
-        }
-    }
-
     /// The other one.
     pub fn other(self) -> Self {
         match self {
@@ -445,57 +431,44 @@ impl Pcurve {
     /// # Errors
     /// An image that is not finite, beyond 1e100, or a single place where it was none.
     pub fn mapped(&self, map: &Affine) -> Result<Self, Error> {
+        self.mapped_by(&|p| map.point(p), &|d| map.vector(d))
+    }
+
+    /// As [`Self::mapped`], with the map given by what it does to places and to their differences.
+    pub(crate) fn mapped_by(
+        &self,
+        point: &dyn Fn(Parameters) -> Parameters,
+        vector: &dyn Fn(Parameters) -> Parameters,
+    ) -> Result<Self, Error> {
         match self {
             Self::Isoline(line) => {
-                let (a, b) = (map.point(self.start()), map.point(self.end()));
+                let (a, b) = (point(self.start()), point(self.end()));
                 // The image of a unit step along the line has one coordinate 0 when the line is not turned.
-                let step = match line.fixed {
-                    Direction::U => map.vector([0.0, 1.0]),
-                    Direction::V => map.vector([1.0, 0.0]),
-                };
-                match step {
+                let mut step = [0.0; 2];
+                step[line.fixed.other().index()] = 1.0;
+                match vector(step) {
                     [0.0, _] => Self::isoline(Direction::U, a[0], a[1], b[1]),
                     [_, 0.0] => Self::isoline(Direction::V, a[1], a[0], b[0]),
                     _ => Self::polyline(&[a, b]),
                 }
             }
             Self::Polyline(line) => {
-                let points: Vec<Parameters> = line.points.iter().map(|p| map.point(*p)).collect();
+                let points: Vec<Parameters> = line.points.iter().map(|p| point(*p)).collect();
                 Self::polyline_at(&line.parameters, &points)
             }
             Self::Spline(curve) => {
                 let image = |p: &[f64; 3]| {
-                    let [u, v] = map.point([p[0], p[1]]);
+                    let [u, v] = point([p[0], p[1]]);
                     [u, v, 0.0]
                 };
                 let poles: Vec<[f64; 3]> = curve.poles().iter().map(image).collect();
-                Self::spline(Curve::new(
-                    curve.knots().values(),
-                    curve.degree(),
-                    &poles,
-                    curve.weights(),
-                )?)
+                let knots = curve.knots().values();
+                Self::spline(Curve::new(knots, curve.degree(), &poles, curve.weights())?)
             }
-            Self::Arc(arc) => Self::arc(
-                map.point(arc.center),
-                map.vector(arc.first),
-                map.vector(arc.second),
-                arc.angles,
-            ),
+            Self::Arc(arc) => {
+                Self::arc(point(arc.center), vector(arc.first), vector(arc.second), arc.angles)
+            }
         }
-    }
-}
-
-/// The value at a share, 0 to 1, of the way from a to b; exact at both ends.
-pub fn between(a: f64, b: f64, share: f64) -> f64 {
-    if share <= 0.0 {
-        a
-    } else if share >= 1.0 {
-        b
-    } else if share <= 0.5 {
-        a + share * (b - a)
-    } else {
-        b - (1.0 - share) * (b - a)
     }
 }
 

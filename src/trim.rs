@@ -22,15 +22,44 @@
 //! A trimmed surface never changes. That its references are right is checked when it is made; whether its loops are closed,
 //! directed, and disjoint, and how far pcurves are from edges, is what a report tells.
 
+mod speed;
+
+mod change;
+
+mod convert;
+
+mod invert;
+
+mod matching;
+
+mod flat;
+
+mod report;
+
+mod dump;
+
+mod picture;
+
+mod merge;
+
+mod follow;
+
 use std::sync::{Arc, OnceLock};
 
-use crate::bounds::{Aabb, Vector};
+use crate::bounds::{Aabb, Vector, norm, sub};
 use crate::callback::{CallbackCurve, CallbackSurface};
 use crate::curve::Curve;
 use crate::elementary::ElementarySurface;
 use crate::error::Error;
 use crate::index::{IndexedCurve, IndexedSurface};
-use crate::pcurve::{Direction, Parameters, Pcurve, between};
+use crate::pcurve::{Direction, Parameters, Pcurve};
+use crate::transform::between;
+
+pub use change::{ChangeOptions, Changed, DEFAULT_TOLERANCE, MOST_VERTICES, Replacement};
+pub use convert::form_transform;
+pub use matching::Matching;
+pub use picture::{MOST_COLUMNS, picture};
+pub use report::{Finding, GAP_SAMPLES, Place, REPORT_TOLERANCE, Report};
 
 /// The surface under a face.
 #[derive(Clone, Debug)]
@@ -464,7 +493,6 @@ fn invalid<T>(text: String) -> Result<T, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bounds::{norm, sub};
     use crate::elementary::{Axes, Elementary};
     use std::f64::consts::{FRAC_PI_2, TAU};
 

@@ -125,7 +125,7 @@ void compare_pcurve(const std::string &about, Row &row, const footpoint::surface
     for (const footpoint::proven_curve &piece : ours) {
         most = std::max(most, piece.deviation.reached);
         bound = std::max(bound, piece.deviation.bound);
-        if (piece.deviation.flags & FPT_PCURVE_NOT_PROVEN) row.not_proven++;
+        if (piece.deviation.flags & FPT_DEVIATION_NOT_PROVEN) row.not_proven++;
         if (piece.shape.degree() == 1) row.lines++;
         const std::array<double, 2> range = piece.shape.domain();
         for (int i = 0; i <= 20; i++) {

@@ -163,7 +163,7 @@ _STATUS = {
     "weights_of_rho": "dp", "weights_of_eccentricity": "pdpp", "weights_normalise": "pzIp", "weights_bound": "pzdp",
     "weights_standard_form": "pp", "weights_positive_form": "zzppp",
     "pcurve_pull": "pppp", "pcurve_set_count": "pp", "pcurve_set_get": "pzpp", "pcurve_lift": "ppppp", "pcurve_deviation": "pppp",
-    "face_new": "pp", "face_classify": "ppzpp", "face_closest": "ppzppp", "face_preimage": "ppdpp",
+    "face_new": "pp", "face_of_trim": "pp", "face_classify": "ppzpp", "face_closest": "ppzppp", "face_preimage": "ppdpp",
 }
 _OTHER = {
     "last_error": ("", c_char_p), "status_name": ("i", c_char_p), "version": ("", c_uint32), "abi_version": ("", c_uint32),

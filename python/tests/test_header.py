@@ -58,7 +58,7 @@ def test_structs():
                                           (footpoint.Scope, "FPT_SCOPE_"), (footpoint.Kind, "FPT_MEMBER_"),
                                           (footpoint.Nature, "FPT_NATURE_"), (weights.State, "FPT_WISH_"),
                                           (weights.WeightFlag, "FPT_WEIGHT_"), (weights.ConstraintKind, "FPT_CONSTRAINT_"),
-                                          (weights.Unit, "FPT_UNIT_"), (pcurve.PcurveFlag, "FPT_PCURVE_"),
+                                          (weights.Unit, "FPT_UNIT_"), (pcurve.PcurveFlag, "FPT_DEVIATION_"),
                                           (footpoint.Standing, "FPT_FACE_")])
 def test_enums(enum: type[Enum], prefix):
     listed = {name: int(value) for name, value in re.findall(rf"^\s*{prefix}(\w+) = (\d+),", HEADER, re.M)}

@@ -9,6 +9,7 @@ use super::query::{Callbacks, LARGE, check_hints};
 use super::records::{feet, fpt_foot_point};
 use super::sets::{fpt_foot_set, hand_over, point};
 use super::surface::{self, fpt_surface};
+use super::trim::{self, fpt_trim};
 use super::{Failure, fpt_status, guard};
 use crate::batch;
 use crate::closest::{FootPoint, QueryOptions, Scope};
@@ -173,6 +174,30 @@ pub unsafe extern "C" fn fpt_face_new(
     guard(|| unsafe {
         let out = place("out", out)?;
         let face = Face::new(&read(data)?, &mut || false)?;
+        *out = Box::into_raw(Box::new(fpt_face { face }));
+        Ok(())
+    })
+}
+
+/// Prepares a trimmed surface for queries: as fpt_face_new, with the surface and the loops of `trim`; its edges in space play no part, the
+/// border of a face is the image of its pcurves.
+///
+/// @param trim  a trimmed surface over a spline surface; one over an elementary surface or a function is FPT_UNSUPPORTED, see
+///              fpt_trim_to_nurbs
+/// @param out   the handle; release it with fpt_face_free. Parameters of answers are those of the surface, those of places the
+///              parameters of the coedges' pcurves; an arc's are those of its NURBS form, the angle at the ends of quarter turns only
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_face_of_trim(
+    trim: *const fpt_trim,
+    out: *mut *mut fpt_face,
+) -> fpt_status {
+    // SAFETY: the header asks for a live handle and room for a handle.
+    guard(|| unsafe {
+        let trim = trim::face("trim", trim)?;
+        let out = place("out", out)?;
+        let face = Face::new(trim, &mut || false)?;
         *out = Box::into_raw(Box::new(fpt_face { face }));
         Ok(())
     })

@@ -22,36 +22,36 @@ use std::sync::Arc;
 /// Bits of fpt_deviation.flags.
 #[repr(C)]
 #[derive(Clone, Copy)]
-pub enum fpt_pcurve_flag {
+pub enum fpt_deviation_flag {
     /// The proven bound exceeds the tolerance.
-    FPT_PCURVE_NOT_PROVEN = 1,
+    FPT_DEVIATION_NOT_PROVEN = 1,
     /// Pull: the edge is proven to leave the surface by more than the tolerance.
-    FPT_PCURVE_NOT_ON_SURFACE = 2,
+    FPT_DEVIATION_NOT_ON_SURFACE = 2,
     /// Pull: the piece runs along the seam of u; the other end of u is as good.
-    FPT_PCURVE_ALONG_SEAM_U = 4,
+    FPT_DEVIATION_ALONG_SEAM_U = 4,
     /// Pull: the piece runs along the seam of v.
-    FPT_PCURVE_ALONG_SEAM_V = 8,
+    FPT_DEVIATION_ALONG_SEAM_V = 8,
     /// Pull: the edge crosses a seam where the piece begins.
-    FPT_PCURVE_FROM_SEAM = 16,
+    FPT_DEVIATION_FROM_SEAM = 16,
     /// Pull: the edge crosses a seam where the piece ends.
-    FPT_PCURVE_TO_SEAM = 32,
+    FPT_DEVIATION_TO_SEAM = 32,
     /// Pull: the piece begins on a collapsed edge of the surface.
-    FPT_PCURVE_FROM_COLLAPSED = 64,
+    FPT_DEVIATION_FROM_COLLAPSED = 64,
     /// Pull: the piece ends on a collapsed edge of the surface.
-    FPT_PCURVE_TO_COLLAPSED = 128,
+    FPT_DEVIATION_TO_COLLAPSED = 128,
     /// Lift: the curve is the image up to rounding, not fitted.
-    FPT_PCURVE_EXACT = 256,
+    FPT_DEVIATION_EXACT = 256,
 }
 
 const _: () = {
-    assert!(fpt_pcurve_flag::FPT_PCURVE_NOT_PROVEN as u32 == pulled::NOT_PROVEN);
-    assert!(fpt_pcurve_flag::FPT_PCURVE_NOT_ON_SURFACE as u32 == pulled::NOT_ON_SURFACE);
-    assert!(fpt_pcurve_flag::FPT_PCURVE_ALONG_SEAM_U as u32 == pulled::ALONG_SEAM_U);
-    assert!(fpt_pcurve_flag::FPT_PCURVE_ALONG_SEAM_V as u32 == pulled::ALONG_SEAM_V);
-    assert!(fpt_pcurve_flag::FPT_PCURVE_FROM_SEAM as u32 == pulled::FROM_SEAM);
-    assert!(fpt_pcurve_flag::FPT_PCURVE_TO_SEAM as u32 == pulled::TO_SEAM);
-    assert!(fpt_pcurve_flag::FPT_PCURVE_FROM_COLLAPSED as u32 == pulled::FROM_COLLAPSED);
-    assert!(fpt_pcurve_flag::FPT_PCURVE_TO_COLLAPSED as u32 == pulled::TO_COLLAPSED);
+    assert!(fpt_deviation_flag::FPT_DEVIATION_NOT_PROVEN as u32 == pulled::NOT_PROVEN);
+    assert!(fpt_deviation_flag::FPT_DEVIATION_NOT_ON_SURFACE as u32 == pulled::NOT_ON_SURFACE);
+    assert!(fpt_deviation_flag::FPT_DEVIATION_ALONG_SEAM_U as u32 == pulled::ALONG_SEAM_U);
+    assert!(fpt_deviation_flag::FPT_DEVIATION_ALONG_SEAM_V as u32 == pulled::ALONG_SEAM_V);
+    assert!(fpt_deviation_flag::FPT_DEVIATION_FROM_SEAM as u32 == pulled::FROM_SEAM);
+    assert!(fpt_deviation_flag::FPT_DEVIATION_TO_SEAM as u32 == pulled::TO_SEAM);
+    assert!(fpt_deviation_flag::FPT_DEVIATION_FROM_COLLAPSED as u32 == pulled::FROM_COLLAPSED);
+    assert!(fpt_deviation_flag::FPT_DEVIATION_TO_COLLAPSED as u32 == pulled::TO_COLLAPSED);
 };
 
 /// How far a curve in space is from the image of a pcurve, at equal parameters: 32 bytes, frozen.
@@ -64,7 +64,7 @@ pub struct fpt_deviation {
     pub reached: f64,
     /// The parameter where it was found.
     pub at: f64,
-    /// Sum of fpt_pcurve_flag values.
+    /// Sum of fpt_deviation_flag values.
     pub flags: u32,
     /// 0.
     pub reserved: u32,
@@ -348,7 +348,7 @@ fn handle(curve: Curve) -> *mut fpt_curve {
 /// @param pcurve        a spline curve with z = 0 in the domain of the surface
 /// @param options       NULL: the defaults
 /// @param out_curve     a new handle; release it with fpt_curve_free
-/// @param out_deviation how far it is from the image; FPT_PCURVE_EXACT, or FPT_PCURVE_NOT_PROVEN when the tolerance was not reached.
+/// @param out_deviation how far it is from the image; FPT_DEVIATION_EXACT, or FPT_DEVIATION_NOT_PROVEN when the tolerance was not reached.
 ///                      NULL: not wanted
 /// @return FPT_INVALID_ARGUMENT also for a pcurve that leaves the domain
 /// @since 0.1
@@ -379,7 +379,7 @@ pub unsafe extern "C" fn fpt_pcurve_lift(
         let lifted = lift(surface, &pcurve, &options)?;
         if let Some(told) = told {
             let missed = !lifted.exact && !lifted.is_within(surface, &options);
-            let flags = if lifted.exact { fpt_pcurve_flag::FPT_PCURVE_EXACT as u32 } else { 0 }
+            let flags = if lifted.exact { fpt_deviation_flag::FPT_DEVIATION_EXACT as u32 } else { 0 }
                 | if missed { pulled::NOT_PROVEN } else { 0 };
             told[0] = fpt_deviation::of(lifted.deviation, flags);
         }

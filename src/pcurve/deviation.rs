@@ -34,7 +34,9 @@ pub struct Deviation {
 
 impl Deviation {
     /// Of nothing.
-    pub const NONE: Self = Self { bound: 0.0, reached: 0.0, at: f64::NAN };
+    pub fn none() -> Self {
+        Self { bound: 0.0, reached: 0.0, at: f64::NAN }
+    }
 
     /// The greater of two.
     pub fn max(self, other: Self) -> Self {
@@ -134,7 +136,7 @@ pub fn deviation(
 
 /// Halves the gap with the greatest bound until that is sharp.
 fn sharpened(mut gaps: Vec<Gap>, enough: f64) -> Deviation {
-    let mut found = Deviation::NONE;
+    let mut found = Deviation::none();
     let take = |gap: &Gap, found: &mut Deviation| {
         for last in [false, true] {
             let value = gap.value(last);

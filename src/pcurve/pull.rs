@@ -93,7 +93,7 @@ pub struct Pulled {
 impl Pulled {
     /// The greatest deviation.
     pub fn deviation(&self) -> Deviation {
-        self.pieces.iter().fold(Deviation::NONE, |most, piece| most.max(piece.deviation))
+        self.pieces.iter().fold(Deviation::none(), |most, piece| most.max(piece.deviation))
     }
 
     /// The flags of all pieces.

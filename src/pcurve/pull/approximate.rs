@@ -228,7 +228,7 @@ impl Puller<'_> {
                 return Err(Error::Cancelled);
             }
             let curve = self.fitted(stretch, &knots)?;
-            let (goal, mut whole) = (self.goal(), Deviation::NONE);
+            let (goal, mut whole) = (self.goal(), Deviation::none());
             let (mut next, mut failed) = (vec![knots[0]], false);
             for pair in knots.windows(2) {
                 let range = [pair[0].t, pair[1].t];
