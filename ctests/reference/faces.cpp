@@ -176,7 +176,7 @@ void faces(int points) {
             }
         }
         footpoint::query_options options;
-        options.tolerance = n % 2 ? 1e-9 : 1e-13;
+        options.tolerance = n % 2 ? 1e-9 : 3e-13;
         const std::vector<fpt_face_place> found = face.classify(uv, options);
         for (std::size_t i = 0; i < found.size(); i++) {
             const double u = uv[2 * i], v = uv[2 * i + 1];

@@ -12,7 +12,7 @@
 //!
 //! Reference: Haines, *Point in polygon strategies*, Graphics Gems IV, 1994 (the crossing rule); Nishita, Sederberg,
 //! Kakimoto, *Ray tracing trimmed rational surface patches*, 1990 (halving in the box).
-//! Limit: a place nearer to a curve than the rounding of its poles, some 1e-14 of their size, is on it.
+//! Limit: a place nearer to a curve than the rounding of its poles, some 1e-13 of their size, is on it.
 
 use crate::bezier::{Bidegree, halve_t};
 use crate::bounds::HALF_ULP;
@@ -20,8 +20,10 @@ use crate::curve::Curve;
 use crate::error::Error;
 use crate::pcurve::compose::arc;
 
-/// Half ulps of the largest coordinate that halving may move a pole by.
-const HALVING: f64 = 192.0;
+/// Half ulps of the largest coordinate, for each pole of a piece, that extraction and 48 halvings may move a pole by; and for all of
+/// them together (`docs/rounding.md`).
+const EACH_POLE: usize = 116;
+const ALL_POLES: usize = 32;
 
 /// Where a place lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,7 +134,7 @@ impl Region {
     fn push(&mut self, places: &[[f64; 2]], weights: &[f64]) {
         let column = |k: usize| places.iter().zip(weights).map(|(p, w)| w * p[k]).collect();
         let largest = places.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
-        let error = (20 * places.len()) as f64 * HALF_ULP * largest + HALVING * HALF_ULP * largest;
+        let error = (EACH_POLE * places.len() + ALL_POLES) as f64 * HALF_ULP * largest;
         let bounds = hull(places.iter().copied());
         let (first, last) = (places[0], places[places.len() - 1]);
         let homogeneous = [column(0), column(1), weights.to_vec()];

@@ -234,7 +234,7 @@ fn check(given: &fpt_query_options, options: &QueryOptions) -> Result<(), Failur
 
 /// On which side of its edges places of the domain lie: inside, outside, or within options->tolerance of an edge, in space.
 ///
-/// Sides are exact: only places nearer to a pcurve than the rounding of its poles, some 1e-14 of them, cannot be told from places on it,
+/// Sides are exact: only places nearer to a pcurve than the rounding of its poles, some 1e-13 of them, cannot be told from places on it,
 /// and these are on the edge for any tolerance that is not smaller. Places outside the domain are outside.
 ///
 /// @param uv       `count` pairs u,v, packed. A pair that is not finite is FPT_FACE_UNKNOWN

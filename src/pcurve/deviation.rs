@@ -55,6 +55,8 @@ struct Gap {
     /// x, y, z, weight.
     coefficients: [Vec<f64>; 4],
     error: f64,
+    /// The greatest of coefficient over weight.
+    most: f64,
     bound: f64,
 }
 
@@ -64,7 +66,7 @@ impl Gap {
         let share = |k: usize| norm([x[k], y[k], z[k]]) / w[k];
         let most = (0..w.len()).map(share).fold(0.0, f64::max);
         let bound = if most.is_nan() { f64::INFINITY } else { most * (1.0 + 1e-12) + error };
-        Self { range, coefficients, error, bound }
+        Self { range, coefficients, error, most, bound }
     }
 
     fn between(piece: &Piece, curve: &Arc) -> Self {
@@ -97,12 +99,14 @@ impl Gap {
     fn halved(self) -> [Self; 2] {
         let degree = Bidegree { s: 0, t: self.coefficients[0].len() - 1 };
         let middle = self.range[0] + 0.5 * (self.range[1] - self.range[0]);
+        // Each level of the halving rounds once, numerator and weight.
+        let error = self.error + (2 * degree.t + 2) as f64 * HALF_ULP * self.most;
         let mut low = self.coefficients;
         let mut high = low.clone();
         low.iter_mut().zip(&mut high).for_each(|(low, high)| halve_t(low, high, degree));
         [
-            Self::new([self.range[0], middle], low, self.error),
-            Self::new([middle, self.range[1]], high, self.error),
+            Self::new([self.range[0], middle], low, error),
+            Self::new([middle, self.range[1]], high, error),
         ]
     }
 }
