@@ -145,6 +145,43 @@ static void a_lifted_curve_is_pulled_back_to_itself(void) {
     fpt_surface_free(surface);
 }
 
+static void faces_of_trimmed_surfaces_are_those_of_their_splines(void) {
+    const double uv[] = {0.5, 0.5, 0, 0.3, 1, 1}, point[] = {1.5, 1.5, 4};
+    fpt_surface *surface = hill();
+    fpt_support *spline = NULL, *sphere = NULL;
+    fpt_trim *trim = NULL, *whole_sphere = NULL;
+    fpt_face *face = NULL, *none = NULL;
+    fpt_elementary_data data;
+    fpt_face_place places[3];
+    fpt_foot_point foot, same;
+    CHECK_OK(fpt_support_new(surface, &spline));
+    CHECK_OK(fpt_trim_whole(spline, &trim));
+    CHECK_OK(fpt_face_of_trim(trim, &face));
+    CHECK_OK(fpt_face_classify(face, uv, 3, NULL, places));
+    CHECK(places[0].standing == FPT_FACE_INSIDE && places[1].standing == FPT_FACE_ON_EDGE);
+    CHECK(places[2].standing == FPT_FACE_ON_EDGE);
+    CHECK_OK(fpt_face_closest(face, point, 1, NULL, &foot, places));
+    CHECK_OK(fpt_surface_closest(surface, point, 1, NULL, &same));
+    CHECK(foot.distance == same.distance && foot.lower_bound == same.lower_bound);
+    memset(&data, 0, sizeof data);
+    data.struct_size = sizeof data;
+    data.kind = FPT_ELEMENTARY_SPHERE;
+    data.domain[1] = 1;
+    data.domain[3] = 1;
+    data.x[0] = data.y[1] = data.z[2] = data.first = 1;
+    CHECK_OK(fpt_support_elementary(&data, &sphere));
+    CHECK_OK(fpt_trim_whole(sphere, &whole_sphere));
+    CHECK_ERROR(fpt_face_of_trim(whole_sphere, &none), FPT_UNSUPPORTED, "not a spline");
+    CHECK_ERROR(fpt_face_of_trim(NULL, &none), FPT_NULL_ARGUMENT, "trim");
+    CHECK(none == NULL);
+    fpt_trim_free(trim);
+    fpt_trim_free(whole_sphere);
+    fpt_support_free(spline);
+    fpt_support_free(sphere);
+    fpt_surface_free(surface);
+    fpt_face_free(face);
+}
+
 static int stop_at_once(void *user) {
     (void)user;
     return 1;
@@ -255,6 +292,7 @@ int main(void) {
     RUN(places_are_told_apart);
     RUN(nearest_points_stay_on_the_face);
     RUN(preimages_are_those_of_the_face);
+    RUN(faces_of_trimmed_surfaces_are_those_of_their_splines);
     RUN(a_lifted_curve_is_pulled_back_to_itself);
     RUN(what_is_wrong_is_named);
     return check_report("faces");

@@ -504,6 +504,10 @@ typedef enum fpt_finding_kind {
      * The surface's function fails on a coedge.
      */
     FPT_FINDING_FAILING = 9,
+    /**
+     * Whether two coedges touch could not be decided: they are too long for the tolerance, or lie on each other.
+     */
+    FPT_FINDING_UNDECIDED = 10,
 } fpt_finding_kind;
 
 /**
@@ -1533,7 +1537,7 @@ typedef struct fpt_trim_summary {
      */
     double segment_error;
     /**
-     * 1: coedges without a finding are proven to be disjoint; 0: the surface is a function, its speed is known from samples only.
+     * 1: coedges without a finding are proven to be disjoint away from common ends; 0: the surface is a function, its speed is known from samples only.
      */
     uint32_t proven;
     /**
@@ -3601,7 +3605,7 @@ fpt_status fpt_support_match_many(const struct fpt_support *from,
                                   const double *uv,
                                   size_t count,
                                   uint32_t threads,
-                                  FootPoint *out);
+                                  struct fpt_foot_point *out);
 
 /**
  * Releases a support. NULL is fine.

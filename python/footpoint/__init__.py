@@ -7,7 +7,7 @@ weak answer is no error but a record whose flags say so.
 Every call releases the GIL and uses all cores unless `threads` says otherwise; Ctrl-C ends a query.
 """
 
-from . import convert, pcurve, weights
+from . import convert, pcurve, trims, weights
 from ._face import Face, Standing
 from ._feet import Feet, Flag, FootSet, Kind, Method, Nature, NormalFlag, PathChange, Scope
 from ._library import Cancelled, abi_version, version
@@ -17,5 +17,5 @@ from .convert import from_freecad, from_geomdl, from_occ, from_splinepy
 
 __version__ = version()
 __all__ = ["NO_MEMBER", "Cancelled", "Curve", "Face", "Feet", "Flag", "FootSet", "Kind", "Method", "Nature", "NormalFlag", "PathChange",
-           "Scene", "Scope", "Standing", "Surface", "abi_version", "convert", "from_freecad", "from_geomdl", "from_occ", "from_splinepy", "pcurve", "version",
+           "Scene", "Scope", "Standing", "Surface", "abi_version", "convert", "from_freecad", "from_geomdl", "from_occ", "from_splinepy", "pcurve", "trims", "version",
            "weights"]

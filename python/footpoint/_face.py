@@ -13,6 +13,7 @@ from ._feet import Feet, FootSet, take_set
 from ._handle import Owner
 from ._query import Call, Points, address, array, real, vector
 from ._shapes import Curve, Surface
+from .trims import TrimmedSurface
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -68,17 +69,30 @@ class Face(Owner):
         data = lib.FaceData(ctypes.sizeof(lib.FaceData), surface._handle, len(chains), address(counts), address(handles))
         out = ctypes.c_void_p()
         lib.call("face_new", ctypes.addressof(data), ctypes.byref(out))
-        self._surface, self._chains = surface, chains
+        self._made = Face, (surface, chains)
+        self._own(out.value)
+
+    @classmethod
+    def of_trim(cls, trim: TrimmedSurface) -> "Face":
+        """The face of a trimmed surface over a spline surface; others are brought there by its `to_nurbs`."""
+        face = cls.__new__(cls)
+        face._of(trim)
+        return face
+
+    def _of(self, trim: TrimmedSurface) -> None:
+        if not isinstance(trim, TrimmedSurface):
+            raise TypeError(f"trim: a TrimmedSurface is needed, not {type(trim).__name__}")
+        out = ctypes.c_void_p()
+        lib.call("face_of_trim", trim._handle, ctypes.byref(out))
+        self._made = Face.of_trim, (trim,)
         self._own(out.value)
 
     def _renew(self) -> None:
-        self._new(self._surface, self._chains)
+        make, arguments = self._made
+        (self._new if make is Face else self._of)(*arguments)
 
     def __reduce__(self) -> tuple:
-        return Face, (self._surface, self._chains)
-
-    def __repr__(self) -> str:
-        return f"Face({len(self._chains)} loops, {sum(map(len, self._chains))} pcurves)"
+        return self._made
 
     def classify(self, uv: ArrayLike, **options: Unpack[QueryOptions]) -> np.ndarray:
         """On which side of the edges places of the domain lie: within `tolerance` of an edge, in space, they are on it.

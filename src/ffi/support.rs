@@ -3,10 +3,10 @@
 use super::curve::{self, fpt_curve};
 use super::memory::{array, output, place, shared};
 use super::options::{SelfSized, check_length, sized};
+use super::records::{feet, fpt_foot_point};
 use super::surface::{self, fpt_surface};
 use super::transform::{circle_form, fpt_transform};
 use super::{Failure, fpt_status, guard};
-use crate::closest::FootPoint;
 use crate::elementary::{Axes, CircleForm, Elementary, ElementarySurface};
 use crate::error::Error;
 use crate::ffi::form::SurfaceForm;
@@ -355,14 +355,14 @@ pub unsafe extern "C" fn fpt_support_match_many(
     uv: *const f64,
     count: usize,
     threads: u32,
-    out: *mut FootPoint,
+    out: *mut fpt_foot_point,
 ) -> fpt_status {
     // SAFETY: the header asks for live handles and two arrays.
     guard(|| unsafe {
         let (from, to) = (support("from", from)?, support("to", to)?);
         check_length("tolerance", tolerance)?;
         let places = array("uv", uv.cast::<[f64; 2]>(), count)?;
-        let out = output("out", out, count)?;
+        let out = feet(out, count)?;
         let matching = Matching::new(from.clone(), to.clone(), tolerance)?;
         Ok(matching.images(places, out, threads as usize, &mut |_| false)?)
     })

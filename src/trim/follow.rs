@@ -4,7 +4,7 @@
 //!   a place inside                 its inversion
 //!   on a seam of the target        the side that the curve comes from, or goes to
 //!   on a collapsed edge            the other parameter is the limit along the curve
-//!   a curve all along a seam       the side of the curves before and behind it
+//!   a curve all along a seam       the side that the face is on, to the left of the curve
 //!   a curve on a collapsed edge    an isoline from the end of the one before to the beginning of the one behind
 //! ```
 //!
@@ -59,7 +59,8 @@ enum Course {
     },
     /// All along a seam of this direction.
     Seam {
-        points: Vec<Parameters>,
+        first: Parameters,
+        last: Parameters,
         direction: usize,
     },
     /// On a collapsed edge: which parameter is free, and the place.
@@ -208,12 +209,39 @@ impl Follower<'_> {
                 return Ok(Course::Pole { free: k, at: middle.at });
             }
             if middle.on_seam[k] && other.on_seam[k] {
+                let side = self.inner_side(pcurve, k)?;
                 let (_, points) = self.line(pcurve, Some(k))?;
-                return Ok(Course::Seam { points, direction: k });
+                let [first, last] = [points[0], points[points.len() - 1]].map(|mut p| {
+                    p[k] = side;
+                    p
+                });
+                return Ok(Course::Seam { first, last, direction: k });
             }
         }
         let (parameters, points) = self.line(pcurve, None)?;
         Ok(Course::Line { parameters, points })
+    }
+
+    /// The side of the seam that the face is on, which lies to the left of its curves.
+    fn inner_side(&mut self, pcurve: &Pcurve, k: usize) -> Result<f64, Error> {
+        let (a, b) = pcurve.domain();
+        let t = between(a, b, 0.43);
+        let mut out = [[0.0; 2]; 2];
+        pcurve.derivatives(t, 1, &mut out);
+        let domain = self.from.domain();
+        let size = [domain[1] - domain[0], domain[3] - domain[2]];
+        // Left in the domain as a square, so that both parameters count.
+        let way = [-out[1][1] / size[1], out[1][0] / size[0]];
+        let length = way[0].hypot(way[1]);
+        let beside = [0, 1].map(|j| out[0][j] + NEAR_END[0] * size[j] * way[j] / length);
+        let query = self.from.evaluate(beside);
+        let foot = self.to.invert(query, &QueryOptions::default(), &mut self.workspace);
+        let found = [foot.u, foot.v][k];
+        let [low, high] = self.ends(k);
+        if found.is_nan() {
+            return invalid("support: the side of a curve along its seam is not told".into());
+        }
+        Ok(if found - low <= high - found { low } else { high })
     }
 
     /// The end of a curve, with what is not told there as the limit of places before it.
@@ -304,52 +332,18 @@ impl Follower<'_> {
         Ok((parameters, points))
     }
 
-    /// The curves of a loop, with sides of seams and ends on collapsed edges taken from their neighbours.
-    fn settled(&self, mut courses: Vec<Course>) -> Result<Vec<Pcurve>, Error> {
+    /// The curves of a loop, with ends on collapsed edges taken from their neighbours.
+    fn settled(&self, courses: Vec<Course>) -> Result<Vec<Pcurve>, Error> {
         let count = courses.len();
-        for k in 0..count {
-            let Course::Seam { direction, .. } = courses[k] else { continue };
-            let neighbours = [(k + count - 1) % count, (k + 1) % count];
-            let ends: Vec<f64> = neighbours
-                .iter()
-                .zip([true, false])
-                .filter_map(|(&i, last)| match &courses[i] {
-                    Course::Line { points, .. } => {
-                        Some(points[if last { points.len() - 1 } else { 0 }][direction])
-                    }
-                    _ => None,
-                })
-                .collect();
-            let [a, b] = self.ends(direction);
-            let side = match ends[..] {
-                [x] => x,
-                [x, y] if x == y => x,
-                _ => {
-                    return invalid(
-                        "support: the side of a curve along its seam is not told".into(),
-                    );
-                }
-            };
-            if side != a && side != b {
-                return invalid(
-                    "support: a curve on its seam has a neighbour that ends inside".into(),
-                );
-            }
-            if let Course::Seam { points, .. } = &mut courses[k] {
-                points.iter_mut().for_each(|p| p[direction] = side);
-            }
-        }
         let place = |k: usize, last: bool| match &courses[k] {
-            Course::Line { points, .. } | Course::Seam { points, .. } => {
-                Some(points[if last { points.len() - 1 } else { 0 }])
-            }
+            Course::Line { points, .. } => Some(points[if last { points.len() - 1 } else { 0 }]),
+            Course::Seam { first, last: end, .. } => Some(if last { *end } else { *first }),
             Course::Pole { .. } => None,
         };
         let pcurve = |(k, course): (usize, &Course)| match course {
             Course::Line { parameters, points } => Pcurve::polyline_at(parameters, points),
-            Course::Seam { points, direction } => {
+            Course::Seam { first, last, direction } => {
                 // A straight line on the border, whatever its speed.
-                let (first, last) = (points[0], points[points.len() - 1]);
                 let fixed = [Direction::U, Direction::V][*direction];
                 let along = 1 - direction;
                 Pcurve::isoline(fixed, first[*direction], first[along], last[along])

@@ -181,6 +181,8 @@ impl<'a> Drawing<'a> {
         // Lines in space with whether each piece looks away; what is pale goes below.
         let mut lines: Vec<(Vec<[f64; 2]>, bool, &str, f64)> = Vec::new();
         let mut add = |places: &[Parameters], color: &'static str, width: f64| {
+            let mut run: Vec<[f64; 2]> = Vec::new();
+            let mut pale = false;
             for pair in places.windows(2) {
                 let middle = [0, 1].map(|k| 0.5 * (pair[0][k] + pair[1][k]));
                 let mut out = [[0.0; 3]; 3];
@@ -190,11 +192,20 @@ impl<'a> Drawing<'a> {
                     normal = scaled(normal, -1.0);
                 }
                 let away = known && dot(normal, view) > 0.0;
-                let points = pair.iter().map(|&p| project(support.evaluate(p)));
-                let points: Vec<[f64; 2]> = points.collect();
-                if points.iter().flatten().all(|x| x.is_finite()) {
-                    lines.push((points, away, color, width));
+                let [p, q] = [pair[0], pair[1]].map(|place| project(support.evaluate(place)));
+                if !(p.iter().chain(&q).all(|x| x.is_finite())) {
+                    continue;
                 }
+                if run.last() != Some(&p) || away != pale {
+                    if run.len() > 1 {
+                        lines.push((std::mem::take(&mut run), pale, color, width));
+                    }
+                    (run, pale) = (vec![p], away);
+                }
+                run.push(q);
+            }
+            if run.len() > 1 {
+                lines.push((run, pale, color, width));
             }
         };
         let [u0, u1, v0, v1] = support.domain();
@@ -205,12 +216,19 @@ impl<'a> Drawing<'a> {
                     let (a, b) = if across { (s, share) } else { (share, s) };
                     [between(u0, u1, a), between(v0, v1, b)]
                 };
+                let mut chain: Vec<Parameters> = Vec::new();
                 for i in 0..SEGMENTS {
                     let [p, m, q] = [0.0, 0.5, 1.0].map(|x| at((i as f64 + x) / SEGMENTS as f64));
                     if self.holds(m) {
-                        add(&[p, q], "#8fa8c8", 0.7);
+                        if chain.is_empty() {
+                            chain.push(p);
+                        }
+                        chain.push(q);
+                    } else {
+                        add(&std::mem::take(&mut chain), "#8fa8c8", 0.8);
                     }
                 }
+                add(&chain, "#8fa8c8", 0.8);
             }
         }
         for (k, chain) in self.loops.iter().enumerate() {
@@ -240,10 +258,16 @@ impl<'a> Drawing<'a> {
     }
 }
 
+/// Lines through points; those nearer than a quarter of a unit to the one before are left out, but for the last.
 fn path(points: impl Iterator<Item = [f64; 2]>) -> String {
     let mut out = String::new();
-    for (k, [x, y]) in points.enumerate() {
-        let _ = write!(out, "{}{x:.2} {y:.2} ", if k == 0 { "M" } else { "L" });
+    let (mut before, mut points) = (None, points.peekable());
+    while let Some([x, y]) = points.next() {
+        let far = before.is_none_or(|[a, b]: [f64; 2]| (x - a).hypot(y - b) >= 0.25);
+        if far || points.peek().is_none() {
+            let _ = write!(out, "{}{x:.2} {y:.2} ", if before.is_none() { "M" } else { "L" });
+            before = Some([x, y]);
+        }
     }
     out
 }
