@@ -128,13 +128,14 @@ class Relation(_Owner):
     @classmethod
     def linear(cls, first: Any, last: Any) -> "Relation":
         """The linear function from the interval `first` to `last`; falling when `last` falls."""
-        return _owner(cls, _made("relation_linear", address(vector("first", first, 2)), address(vector("last", last, 2))))
+        ends = vector("first", first, 2), vector("last", last, 2)
+        return _owner(cls, _made("relation_linear", *map(address, ends)))
 
     @classmethod
     def circle(cls, arcs: int, sweep: float, first: Any = (0, 1), last: Any = (0, 1)) -> "Relation":
         """From the parameter of a circular arc to its angle; arcs 0: half turns of 4 poles, n: n equal arcs; sweep in radians."""
-        ends = address(vector("first", first, 2)), address(vector("last", last, 2))
-        return _owner(cls, _made("relation_circle", integer("arcs", arcs), real("sweep", sweep), *ends))
+        ends = vector("first", first, 2), vector("last", last, 2)
+        return _owner(cls, _made("relation_circle", integer("arcs", arcs), real("sweep", sweep), *map(address, ends)))
 
     @classmethod
     def through(cls, places: Any, values: Any) -> "Relation":
