@@ -1483,6 +1483,13 @@ public:
     const fpt_trim *get() const noexcept { return handle_.get(); }
     fpt_trim *release() noexcept { return handle_.release(); }
 
+    /** Prepared for point queries, as fpt_face_of_trim. */
+    face prepared() const {
+        fpt_face *out = nullptr;
+        check(fpt_face_of_trim(get(), &out));
+        return face(out);
+    }
+
     footpoint::support support() const {
         fpt_support *out = nullptr;
         check(fpt_trim_support(get(), &out));

@@ -379,8 +379,9 @@ pub unsafe extern "C" fn fpt_pcurve_lift(
         let lifted = lift(surface, &pcurve, &options)?;
         if let Some(told) = told {
             let missed = !lifted.exact && !lifted.is_within(surface, &options);
-            let flags = if lifted.exact { fpt_deviation_flag::FPT_DEVIATION_EXACT as u32 } else { 0 }
-                | if missed { pulled::NOT_PROVEN } else { 0 };
+            let flags =
+                if lifted.exact { fpt_deviation_flag::FPT_DEVIATION_EXACT as u32 } else { 0 }
+                    | if missed { pulled::NOT_PROVEN } else { 0 };
             told[0] = fpt_deviation::of(lifted.deviation, flags);
         }
         *out = handle(lifted.curve);
