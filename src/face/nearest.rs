@@ -170,8 +170,8 @@ impl Face {
             }
         }
         foot.lower_bound = lower_bound.max(whole.lower_bound).clamp(0.0, foot.distance);
-        // Not <=: a NaN proves nothing.
-        if !(foot.distance - foot.lower_bound <= allowed) {
+        let gap = foot.distance - foot.lower_bound;
+        if gap.is_nan() || gap > allowed {
             foot.flags |= flag::NOT_PROVEN;
         }
         (foot, place)

@@ -84,9 +84,9 @@ pub fn arc(curve: &Curve, span: usize, range: [f64; 2], center: Vector) -> Arc {
 pub fn binomials(n: usize) -> Vec<f64> {
     let table = n.min(bezier::MAX_TRIPLE - 1);
     let mut row: Vec<f64> = (0..=table).map(|k| bezier::binomial(table, k)).collect();
-    for _ in table..n {
-        row.push(0.0);
-        for k in (1..row.len()).rev() {
+    row.resize(n + 1, 0.0);
+    for length in table + 1..=n {
+        for k in (1..=length).rev() {
             row[k] += row[k - 1];
         }
     }

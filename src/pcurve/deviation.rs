@@ -64,8 +64,11 @@ impl Gap {
     fn new(range: [f64; 2], coefficients: [Vec<f64>; 4], error: f64) -> Self {
         let [x, y, z, w] = &coefficients;
         let share = |k: usize| norm([x[k], y[k], z[k]]) / w[k];
-        let most = (0..w.len()).map(share).fold(0.0, f64::max);
-        let bound = if most.is_nan() { f64::INFINITY } else { most * (1.0 + 1e-12) + error };
+        // A quotient that is no number bounds nothing.
+        let worse = |most: f64, x: f64| if x.is_nan() { f64::INFINITY } else { most.max(x) };
+        let most = (0..w.len()).map(share).fold(0.0, worse);
+        let bound = most * (1.0 + 1e-12) + error;
+        let bound = if bound.is_nan() { f64::INFINITY } else { bound };
         Self { range, coefficients, error, most, bound }
     }
 

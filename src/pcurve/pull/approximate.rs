@@ -57,8 +57,7 @@ impl Puller<'_> {
                 None => self.spline(stretch, poll)?,
             },
         };
-        // Not <=: a bound that is NaN proves nothing.
-        if !(deviation.bound <= tolerance) {
+        if deviation.bound > tolerance {
             flags |= pulled::NOT_PROVEN;
         }
         Ok(PulledPiece { curve, deviation, flags })
@@ -234,7 +233,7 @@ impl Puller<'_> {
                 let range = [pair[0].t, pair[1].t];
                 let found = deviation(&mut self.composer, &curve, self.edge, range, ENOUGH * goal)?;
                 whole = whole.max(found);
-                if !(found.bound <= goal) && range[1] - range[0] > shortest {
+                if found.bound > goal && range[1] - range[0] > shortest {
                     failed = true;
                     let share = 1.1 * (found.bound / goal).powf(1.0 / (self.degree + 1) as f64);
                     let parts = share.ceil().clamp(2.0, MOST_PARTS);

@@ -45,7 +45,7 @@ impl Puller<'_> {
         let mut parameters = self.first_parameters();
         let mut feet: Vec<FootPoint> = Vec::new();
         for &t in &parameters {
-            if feet.len() % 32 == 0 && poll() {
+            if feet.len().is_multiple_of(32) && poll() {
                 return Err(Error::Cancelled);
             }
             let hint = feet.last().map(|foot| [foot.u, foot.v]);
