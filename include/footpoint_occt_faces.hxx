@@ -223,6 +223,7 @@ inline trimmed_surface trimmed(const TopoDS_Face &given) {
             double first = 0, last = 0;
             const Handle(Geom2d_Curve) pcurve = BRep_Tool::CurveOnSurface(edge, face, first, last);
             if (pcurve.IsNull()) detail::refuse("footpoint: an edge of the face has no curve in its domain");
+            if (!(first < last)) detail::refuse("footpoint: the range of an edge is empty or backwards: BRepCheck_Analyzer refuses it too");
             detail::pcurve_data &data = kept.emplace_back();
             detail::pcurve_of(pcurve, first, last, turned, data);
             const std::size_t k = std::size_t(map.FindIndex(edge)) - 1;

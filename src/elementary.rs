@@ -28,6 +28,7 @@ use crate::bounds::{Vector, add, cross, dot, norm, scaled, sub};
 use crate::curve::Curve;
 use crate::error::Error;
 use crate::knots::MAX_MAGNITUDE;
+use crate::portable::SameDigits;
 use crate::surface::COLLAPSED_TOLERANCE;
 
 pub use circle::{CircleForm, quadrant_exact};
@@ -313,7 +314,7 @@ impl ElementarySurface {
         match self.kind {
             Elementary::Cylinder { radius, .. } => linear([radius, v], [0.0, 1.0]),
             Elementary::Cone { radius, half_angle, .. } => {
-                let (s, c) = half_angle.sin_cos();
+                let (s, c) = half_angle.sine_cosine();
                 let at = if self.is_on_axis(v) { 0.0 } else { radius + v * s };
                 linear([at, v * c], [s, c])
             }
@@ -370,8 +371,8 @@ impl ElementarySurface {
         let [_, _, v0, v1] = self.domain;
         let bad = match self.kind {
             Elementary::Cone { radius, half_angle, .. } => {
-                let slack = AXIS_TOLERANCE * radius.max((v1 - v0).abs() * half_angle.sin().abs());
-                [v0, v1].iter().any(|v| radius + v * half_angle.sin() < -slack)
+                let slack = AXIS_TOLERANCE * radius.max((v1 - v0).abs() * half_angle.sine().abs());
+                [v0, v1].iter().any(|v| radius + v * half_angle.sine() < -slack)
             }
             Elementary::Sphere { .. } => {
                 let slack = 4.0 * f64::EPSILON;
@@ -381,7 +382,7 @@ impl ElementarySurface {
                 // The radius is least at odd multiples of half a turn, if there is one inside.
                 let inner = ((v0 / PI + 1.0) / 2.0).floor() * 2.0 + 1.0;
                 let crosses = v0 < inner * PI && inner * PI < v1;
-                let least = if crosses { -1.0 } else { v0.cos().min(v1.cos()) };
+                let least = if crosses { -1.0 } else { v0.cosine().min(v1.cosine()) };
                 let radius = major + minor * least;
                 radius < -AXIS_TOLERANCE * (major + minor) || (crosses && radius <= 0.0)
             }
@@ -414,7 +415,7 @@ impl ElementarySurface {
                 | Elementary::Cylinder { .. }
                 | Elementary::Extrusion { .. } => false,
                 Elementary::Cone { radius, half_angle, .. } => {
-                    (radius + v * half_angle.sin()).abs() <= AXIS_TOLERANCE * size
+                    (radius + v * half_angle.sine()).abs() <= AXIS_TOLERANCE * size
                 }
                 Elementary::Sphere { .. } => (v.abs() - FRAC_PI_2).abs() <= 4.0 * f64::EPSILON,
                 Elementary::Torus { .. } => self.profile(v, 0)[0].abs() <= AXIS_TOLERANCE * size,
@@ -444,7 +445,7 @@ impl Elementary {
             Self::Plane { .. } => [all[0], all[1], all[0], all[1]],
             Self::Cylinder { .. } => [0.0, TAU, all[0], all[1]],
             Self::Cone { radius, half_angle, .. } => {
-                let apex = -radius / half_angle.sin();
+                let apex = -radius / half_angle.sine();
                 if *half_angle > 0.0 { [0.0, TAU, apex, all[1]] } else { [0.0, TAU, all[0], apex] }
             }
             Self::Sphere { .. } => [0.0, TAU, -FRAC_PI_2, FRAC_PI_2],
@@ -485,7 +486,7 @@ impl Elementary {
                     return invalid(format!("radius: {radius} is not in 0 .. 1e100"));
                 }
                 let slope = half_angle.abs();
-                if slope.is_nan() || slope < 1e-12 || slope > FRAC_PI_2 - 1e-12 {
+                if !(1e-12..=FRAC_PI_2 - 1e-12).contains(&slope) {
                     return invalid(format!(
                         "half_angle: {half_angle} is 0, or not between -pi/2 and pi/2"
                     ));

@@ -5,6 +5,8 @@
 
 pub mod error;
 
+pub mod portable;
+
 pub mod knots;
 
 pub mod basis;

@@ -25,6 +25,7 @@ use crate::curve::{Curve, box_of};
 use crate::elementary::quadrant_exact;
 use crate::error::Error;
 use crate::knots::{Knots, MAX_MAGNITUDE};
+use crate::portable::SameDigits;
 use crate::transform::between;
 
 pub use crate::operate::Direction;
@@ -337,7 +338,7 @@ impl Pcurve {
             Self::Arc(arc) => {
                 let mut points = vec![self.start(), self.end()];
                 for axis in 0..2 {
-                    let top = arc.second[axis].atan2(arc.first[axis]);
+                    let top = arc.second[axis].arctangent_over(arc.first[axis]);
                     let first = ((arc.angles[0] - top) / PI).floor() as i64;
                     for k in first..first + 4 {
                         let t = top + k as f64 * PI;

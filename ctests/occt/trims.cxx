@@ -74,7 +74,20 @@ void primitives() {
     look_at("cone", placed(BRepPrimAPI_MakeCone(2, 0, 5).Shape()));
     look_at("blunt cone", placed(BRepPrimAPI_MakeCone(1, 2, 5).Shape()));
     look_at("torus", placed(BRepPrimAPI_MakeTorus(5, 2).Shape()));
-    look_at("part of a torus", placed(BRepPrimAPI_MakeTorus(5, 2, 0.3, 2.9, 5.0).Shape()));
+    look_at("part of a torus", placed(BRepPrimAPI_MakeTorus(5, 2, 4.0).Shape()));
+}
+
+/** OCCT 7.6 makes this solid with an edge whose range runs backwards; it is refused with a text. */
+void what_is_not_valid() {
+    bool refused = false;
+    for (TopExp_Explorer faces(BRepPrimAPI_MakeTorus(5, 2, 0.3, 2.9, 5.0).Shape(), TopAbs_FACE); faces.More(); faces.Next()) {
+        try {
+            footpoint::occt::trimmed(TopoDS::Face(faces.Current()));
+        } catch (const Standard_ConstructionError &failure) {
+            refused = std::string(failure.GetMessageString()).find("backwards") != std::string::npos;
+        }
+    }
+    expect(refused, "backwards", "refused");
 }
 
 void solids() {
@@ -94,5 +107,5 @@ void solids() {
 
 int main() {
     using std::pair;
-    return run(pair{"primitives", primitives}, pair{"solids", solids});
+    return run(pair{"primitives", primitives}, pair{"solids", solids}, pair{"what is not valid", what_is_not_valid});
 }

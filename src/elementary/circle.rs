@@ -15,6 +15,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::invalid;
 use crate::error::Error;
+use crate::portable::SameDigits;
 
 /// Most arcs of one circle.
 pub const MOST_ARCS: usize = 1000;
@@ -121,7 +122,7 @@ pub fn quadrant_exact(angle: f64) -> [f64; 2] {
             _ => [0.0, -1.0],
         };
     }
-    let (s, c) = angle.sin_cos();
+    let (s, c) = angle.sine_cosine();
     [c, s]
 }
 

@@ -8,6 +8,7 @@ use super::parameters::{check_parameters, check_points, distance};
 use super::{Ends, Fit, Spline, fitted, measured};
 use crate::error::Error;
 use crate::knots::{Knots, MAX_DEGREE};
+use crate::portable::SameDigits;
 
 /// How [`adaptive`] and [`of_function`] fit.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,7 +64,7 @@ impl Adaptive<'_> {
 
     /// Into how many pieces a span with this error is cut.
     fn pieces(&self, error: f64) -> usize {
-        let wished = (error / self.tolerance).powf(1.0 / (self.degree + 1) as f64).ceil();
+        let wished = (error / self.tolerance).power(1.0 / (self.degree + 1) as f64).ceil();
         wished.clamp(2.0, 4.0) as usize
     }
 }

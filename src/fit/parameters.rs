@@ -1,6 +1,7 @@
 //! Parameters for points in order, and knots for parameters.
 
 use crate::error::Error;
+use crate::portable::SameDigits;
 
 /// How the steps between the parameters of neighbouring points follow the distances `d` of the points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -15,7 +16,7 @@ pub enum Spacing {
 }
 
 pub(super) fn distance<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
-    a.iter().zip(b).fold(0.0, |length: f64, (x, y)| length.hypot(x - y))
+    a.iter().zip(b).fold(0.0, |length: f64, (x, y)| length.hypotenuse(x - y))
 }
 
 /// Parameters from 0 to 1 for points in order, at least two.

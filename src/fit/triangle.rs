@@ -15,6 +15,7 @@
 //! Reference: Dierckx, *Curve and Surface Fitting with Splines*, 1993, section 4.1.2.
 
 use crate::error::Error;
+use crate::portable::SameDigits;
 
 /// A diagonal entry below this part of its column says that the unknown is not determined.
 const RANK_TOLERANCE: f64 = 1e-14;
@@ -50,7 +51,7 @@ impl Triangle {
             if factor != 0.0 {
                 let own = &mut self.rows[i * band..(i + 1) * band];
                 let was_empty = own[0] == 0.0;
-                let length = own[0].hypot(factor);
+                let length = own[0].hypotenuse(factor);
                 let turn = (own[0] / length, factor / length);
                 rotate(own, row, turn);
                 rotate(&mut self.right[i * self.width..(i + 1) * self.width], right, turn);

@@ -13,6 +13,7 @@
 use super::Share;
 use crate::elementary::CircleForm;
 use crate::error::Error;
+use crate::portable::SameDigits;
 
 /// Equal pieces of a circular arc.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,13 +39,15 @@ impl Circle {
 
     /// From a share of the parameters to a share of the angles.
     pub fn angle(&self, share: Share) -> Share {
-        self.by_pieces(share, |s| (s * self.sin).atan2((1.0 - s) + s * self.cos) / self.half)
+        self.by_pieces(share, |s| {
+            (s * self.sin).arctangent_over((1.0 - s) + s * self.cos) / self.half
+        })
     }
 
     /// From a share of the angles to a share of the parameters.
     pub fn parameter(&self, share: Share) -> Share {
         self.by_pieces(share, |w| {
-            let tan = (w * self.half).tan();
+            let tan = (w * self.half).tangent();
             tan / (self.sin + tan * (1.0 - self.cos))
         })
     }

@@ -7,6 +7,7 @@ use super::speed::{motion, speeds};
 use super::{Support, norm, sub};
 use crate::error::Error;
 use crate::pcurve::{Parameters, Pcurve};
+use crate::portable::SameDigits;
 use crate::transform::between;
 
 /// Most segments of one curve; with more to do the error stays above what was asked for.
@@ -77,7 +78,8 @@ impl Flat {
         while let Some(([from, to], depth, above)) = waiting.pop() {
             let bend = if depth < LEVELS { motion(pcurve, [from, to]).second } else { above };
             let h = to - from;
-            let off = h * h / 8.0 * (scale.speeds[0] * bend[0]).hypot(scale.speeds[1] * bend[1]);
+            let off =
+                h * h / 8.0 * (scale.speeds[0] * bend[0]).hypotenuse(scale.speeds[1] * bend[1]);
             let middle = from + 0.5 * h;
             let room = parameters.len() + waiting.len() < MOST_SEGMENTS;
             if off > error && room && from < middle && middle < to {
@@ -204,7 +206,7 @@ fn nodes(count: usize) -> usize {
 
 pub(crate) fn far(a: Parameters, b: Parameters) -> f64 {
     let d = sub([a[0], a[1], 0.0], [b[0], b[1], 0.0]);
-    d[0].hypot(d[1])
+    d[0].hypotenuse(d[1])
 }
 
 /// How the segments ab and cd meet: whether each has its ends on different sides of the other's line by more than `margin`, and
@@ -216,7 +218,7 @@ pub(crate) fn meeting(
 ) -> (bool, f64, [f64; 2]) {
     let side = |p: Parameters, q: Parameters, r: Parameters| {
         let (x, y) = ([q[0] - p[0], q[1] - p[1]], [r[0] - p[0], r[1] - p[1]]);
-        let length = x[0].hypot(x[1]);
+        let length = x[0].hypotenuse(x[1]);
         if length == 0.0 { 0.0 } else { (x[0] * y[1] - x[1] * y[0]) / length }
     };
     let (c_side, d_side) = (side(a, b, c), side(a, b, d));

@@ -17,6 +17,7 @@ use super::{Loop, LoopKind, Support, TrimmedSurface, invalid, norm, sub};
 use crate::closest::{QueryOptions, Workspace, flag};
 use crate::error::Error;
 use crate::pcurve::{Direction, Parameters, Pcurve};
+use crate::portable::SameDigits;
 use crate::transform::between;
 
 /// A point nearer to a border than this share of the diagonal is on it.
@@ -232,7 +233,7 @@ impl Follower<'_> {
         let size = [domain[1] - domain[0], domain[3] - domain[2]];
         // Left in the domain as a square, so that both parameters count.
         let way = [-out[1][1] / size[1], out[1][0] / size[0]];
-        let length = way[0].hypot(way[1]);
+        let length = way[0].hypotenuse(way[1]);
         let beside = [0, 1].map(|j| out[0][j] + NEAR_END[0] * size[j] * way[j] / length);
         let query = self.from.evaluate(beside);
         let foot = self.to.invert(query, &QueryOptions::default(), &mut self.workspace);

@@ -13,6 +13,7 @@ use super::{LoopKind, TrimmedSurface, invalid};
 use crate::bounds::{Vector, cross, dot, norm, scaled};
 use crate::error::Error;
 use crate::pcurve::Parameters;
+use crate::portable::SameDigits;
 use crate::transform::between;
 
 /// Side of a panel and the room around it.
@@ -274,7 +275,7 @@ fn path(points: impl Iterator<Item = [f64; 2]>) -> String {
 
 /// The way a chain runs, in its middle.
 fn arrow(chain: Vec<[f64; 2]>, color: &str, out: &mut String) {
-    let length = |p: [f64; 2], q: [f64; 2]| (q[0] - p[0]).hypot(q[1] - p[1]);
+    let length = |p: [f64; 2], q: [f64; 2]| (q[0] - p[0]).hypotenuse(q[1] - p[1]);
     let total: f64 = chain.windows(2).map(|w| length(w[0], w[1])).sum();
     let mut left = 0.5 * total;
     for pair in chain.windows(2) {

@@ -18,6 +18,7 @@ use crate::elementary::Elementary;
 use crate::error::Error;
 use crate::knots::Knots;
 use crate::pcurve::Pcurve;
+use crate::portable::SameDigits;
 use crate::surface::Surface;
 
 /// Cuts of each span for bounds of a support: speeds vary inside a span.
@@ -121,7 +122,7 @@ pub(crate) fn motion(pcurve: &Pcurve, [a, b]: [f64; 2]) -> Motion {
         }
         Pcurve::Spline(curve) => spline_motion(curve, [a, b]),
         Pcurve::Arc(arc) => {
-            let most = [0, 1].map(|k| arc.first[k].hypot(arc.second[k]) * LOOSE);
+            let most = [0, 1].map(|k| arc.first[k].hypotenuse(arc.second[k]) * LOOSE);
             Motion { first: most, second: most }
         }
     }
@@ -146,7 +147,7 @@ fn elementary_speeds(support: &ElementarySupport) -> Result<[f64; 2], Error> {
         Elementary::Plane { .. } => [1.0, 1.0],
         Elementary::Cylinder { radius, .. } => [*radius, 1.0],
         Elementary::Cone { radius, half_angle, .. } => {
-            let at = |v: f64| (radius + v * half_angle.sin()).abs();
+            let at = |v: f64| (radius + v * half_angle.sine()).abs();
             [at(v0).max(at(v1)), 1.0]
         }
         Elementary::Sphere { radius, .. } => [*radius, *radius],
