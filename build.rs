@@ -8,7 +8,7 @@ const HEADER: &str = "include/footpoint.h";
 /// Setting this variable writes the header instead of comparing it.
 const WRITE: &str = "FOOTPOINT_WRITE_HEADER";
 /// The files that hold the C API, in the order in which the header has them.
-const SOURCES: [&str; 28] = [
+const SOURCES: [&str; 30] = [
     "src/ffi.rs",
     "src/ffi/records.rs",
     "src/ffi/options.rs",
@@ -37,6 +37,8 @@ const SOURCES: [&str; 28] = [
     "src/ffi/trim_parts.rs",
     "src/ffi/trim_change.rs",
     "src/ffi/trim_report.rs",
+    "src/ffi/pcurve.rs",
+    "src/ffi/face.rs",
 ];
 
 fn main() {

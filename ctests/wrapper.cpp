@@ -543,6 +543,33 @@ void fits_and_constructions_are_those_of_the_c_api() {
     check_thrown([&] { (void)fit_curve(points, fit_options()); }, FPT_INVALID_ARGUMENT, "tolerance");
 }
 
+void pcurves_and_faces_are_those_of_the_c_api() {
+    const std::vector<double> knots{0, 0, 0, 0, 1, 1, 1, 1};
+    std::vector<double> poles;
+    for (int i = 0; i < 16; i++) poles.insert(poles.end(), {double(i / 4), double(i % 4), i == 5 || i == 10 ? 2.0 : 0.0});
+    const surface hill(3, 3, knots, knots, poles);
+    const curve line(1, {0, 0, 1, 1}, {0.1, 0.2, 0, 0.9, 0.7, 0});
+    const footpoint::proven_curve image = footpoint::lift(hill, line);
+    CHECK(image.deviation.flags == FPT_DEVIATION_EXACT && image.shape.degree() == 6);
+    const std::vector<footpoint::proven_curve> back = footpoint::pull(hill, image.shape);
+    CHECK(back.size() == 1 && back[0].shape.degree() == 1 && back[0].deviation.flags == 0);
+    CHECK(footpoint::deviation(hill, back[0].shape, image.shape).bound < 1e-6);
+    const curve outline(1, {0, 0, 1, 2, 3, 3}, {0.1, 0.1, 0, 0.9, 0.1, 0, 0.1, 0.9, 0, 0.1, 0.1, 0});
+    const std::vector<std::vector<const curve *>> loops{{&outline}};
+    const footpoint::face face(hill, loops);
+    CHECK(face.classify({0.3, 0.3, 0.8, 0.8}).at(0).standing == FPT_FACE_INSIDE);
+    CHECK(face.classify({0.3, 0.3, 0.8, 0.8}).at(1).standing == FPT_FACE_OUTSIDE);
+    const footpoint::face_feet found = face.closest({3, 3, 1});
+    CHECK(found.places.at(0).standing == FPT_FACE_ON_EDGE && found.feet.at(0).lower_bound <= found.feet.at(0).distance);
+    const std::vector<double> inside = hill.evaluate(0.3, 0.3, 0);
+    CHECK(face.preimage({inside[0], inside[1], inside[2]}).size() == 1);
+    const footpoint::trimmed_surface whole{footpoint::support(hill)};
+    CHECK(whole.prepared().classify({0.8, 0.8}).at(0).standing == FPT_FACE_INSIDE);
+    check_thrown([&] { face.classify({0.5}); }, FPT_INVALID_ARGUMENT, "uv");
+    const std::vector<std::vector<const curve *>> missing{{nullptr}};
+    check_thrown([&] { footpoint::face(hill, missing); }, FPT_INVALID_ARGUMENT, "pcurve 0 of loop 0");
+}
+
 void versions_agree() {
     CHECK(footpoint::version() == FPT_VERSION && footpoint::abi_version() == FPT_ABI_VERSION);
 }
@@ -568,6 +595,7 @@ int main() {
     RUN(weights_are_those_of_the_c_api);
     RUN(trims_are_those_of_the_c_api);
     RUN(fits_and_constructions_are_those_of_the_c_api);
+    RUN(pcurves_and_faces_are_those_of_the_c_api);
     RUN(versions_agree);
     return check_report("wrapper");
 }

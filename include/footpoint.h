@@ -607,6 +607,70 @@ typedef enum fpt_quadric {
 } fpt_quadric;
 
 /**
+ * Bits of fpt_deviation.flags.
+ */
+typedef enum fpt_deviation_flag {
+    /**
+     * The proven bound exceeds the tolerance.
+     */
+    FPT_DEVIATION_NOT_PROVEN = 1,
+    /**
+     * Pull: the edge is proven to leave the surface by more than the tolerance.
+     */
+    FPT_DEVIATION_NOT_ON_SURFACE = 2,
+    /**
+     * Pull: the piece runs along the seam of u; the other end of u is as good.
+     */
+    FPT_DEVIATION_ALONG_SEAM_U = 4,
+    /**
+     * Pull: the piece runs along the seam of v.
+     */
+    FPT_DEVIATION_ALONG_SEAM_V = 8,
+    /**
+     * Pull: the edge crosses a seam where the piece begins.
+     */
+    FPT_DEVIATION_FROM_SEAM = 16,
+    /**
+     * Pull: the edge crosses a seam where the piece ends.
+     */
+    FPT_DEVIATION_TO_SEAM = 32,
+    /**
+     * Pull: the piece begins on a collapsed edge of the surface.
+     */
+    FPT_DEVIATION_FROM_COLLAPSED = 64,
+    /**
+     * Pull: the piece ends on a collapsed edge of the surface.
+     */
+    FPT_DEVIATION_TO_COLLAPSED = 128,
+    /**
+     * Lift: the curve is the image up to rounding, not fitted.
+     */
+    FPT_DEVIATION_EXACT = 256,
+} fpt_deviation_flag;
+
+/**
+ * Where a place lies, for fpt_face_place.standing.
+ */
+typedef enum fpt_face_standing {
+    /**
+     * In the face, farther from its edges than the tolerance.
+     */
+    FPT_FACE_INSIDE = 0,
+    /**
+     * Not in the face, farther from its edges than the tolerance.
+     */
+    FPT_FACE_OUTSIDE = 1,
+    /**
+     * Within the tolerance of an edge, in space.
+     */
+    FPT_FACE_ON_EDGE = 2,
+    /**
+     * It could not be decided whether an edge is within the tolerance; or the query was none.
+     */
+    FPT_FACE_UNKNOWN = 3,
+} fpt_face_standing;
+
+/**
  * A curve. Immutable: any number of threads may use one at a time. The search index is built on first
  * use, by one thread while the others wait. Made by fpt_curve_new or fpt_curve_from_callback, owned by the
  * caller, released by fpt_curve_free. A curve from a callback has no degree, knots, poles and weights:
@@ -615,10 +679,22 @@ typedef enum fpt_quadric {
 typedef struct fpt_curve fpt_curve;
 
 /**
+ * A face prepared for queries: a surface and loops of pcurves. Immutable: any number of threads may use one at a time. Owned by the
+ * caller, released by fpt_face_free; the handles that it was made from may be freed before or after it.
+ */
+typedef struct fpt_face fpt_face;
+
+/**
  * A set of feet. Immutable: any number of threads may read one at a time. Owned by the caller, released by
  * fpt_foot_set_free; it does not refer to the shape that it came from.
  */
 typedef struct fpt_foot_set fpt_foot_set;
+
+/**
+ * The pcurves of an edge, in its order. Immutable. Owned by the caller, released by fpt_pcurve_set_free; it does not refer to
+ * the handles that it came from.
+ */
+typedef struct fpt_pcurve_set fpt_pcurve_set;
 
 /**
  * A monotone function of one parameter on an interval, with its inverse. Immutable: any number of threads may use one at a time.
@@ -1731,6 +1807,142 @@ typedef struct fpt_trim_finding {
      */
     double numbers[3];
 } fpt_trim_finding;
+
+/**
+ * How to pull an edge back. Fill it with fpt_pull_options_init, then change what matters. All zero after struct_size is the
+ * default of everything. Grows at the end only.
+ */
+typedef struct fpt_pull_options {
+    /**
+     * sizeof(fpt_pull_options), set by fpt_pull_options_init.
+     */
+    size_t struct_size;
+    /**
+     * Length, finite, >= 0: greatest distance between edge and image at equal parameters. 0: 1e-7 x the diagonal of the
+     * surface's box.
+     */
+    double tolerance;
+    /**
+     * Degree of fitted pcurves, 1 to 9. 0: 3, or 5 for tolerances below 1e-8 x the diagonal.
+     */
+    size_t degree;
+    /**
+     * Most poles of a pcurve; 0: 2000.
+     */
+    size_t pole_limit;
+    /**
+     * 2 finite numbers u,v near the edge's start, where more than one place of the surface is as near: seams,
+     * self-intersections. Along a seam the nearer end of the domain is taken. NULL: none. Borrowed during the call.
+     */
+    const double *hint;
+    /**
+     * Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED. NULL: never.
+     */
+    int (*should_stop)(void *user);
+    /**
+     * Handed to should_stop as it is.
+     */
+    void *user;
+} fpt_pull_options;
+
+/**
+ * How to lift a pcurve. Fill it with fpt_lift_options_init, then change what matters. All zero after struct_size is the
+ * default of everything. Grows at the end only.
+ */
+typedef struct fpt_lift_options {
+    /**
+     * sizeof(fpt_lift_options), set by fpt_lift_options_init.
+     */
+    size_t struct_size;
+    /**
+     * Length, finite, >= 0: greatest deviation of a fitted image. 0: 1e-7 x the diagonal of the surface's box.
+     */
+    double tolerance;
+    /**
+     * Exact images may have at most this degree, 1 to 31: that of the pcurve times the sum of the surface's. Isocurves always
+     * are exact. 0: 6.
+     */
+    size_t exact_degree;
+} fpt_lift_options;
+
+/**
+ * How far a curve in space is from the image of a pcurve, at equal parameters: 32 bytes, frozen.
+ */
+typedef struct fpt_deviation {
+    /**
+     * Proven: nowhere more than this, rounding included.
+     */
+    double bound;
+    /**
+     * The greatest distance found, up to rounding; bound - reached is what the proof leaves open.
+     */
+    double reached;
+    /**
+     * The parameter where it was found.
+     */
+    double at;
+    /**
+     * Sum of fpt_deviation_flag values.
+     */
+    uint32_t flags;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} fpt_deviation;
+
+/**
+ * The input of fpt_face_new. Copied: nothing is borrowed after the call.
+ */
+typedef struct fpt_face_data {
+    /**
+     * sizeof(fpt_face_data).
+     */
+    size_t struct_size;
+    /**
+     * A spline surface.
+     */
+    const struct fpt_surface *surface;
+    /**
+     * At least 1.
+     */
+    size_t loop_count;
+    /**
+     * For each loop the number of its pcurves, at least 1.
+     */
+    const size_t *coedge_counts;
+    /**
+     * The pcurves of all loops, one after the other: spline curves with z = 0 in the domain of the surface, each beginning
+     * where the one before ends, up to a gap that a line closes. A region across a seam is bounded on both sides of it.
+     */
+    const struct fpt_curve *const *pcurves;
+} fpt_face_data;
+
+/**
+ * A place of a face: 24 bytes, frozen.
+ */
+typedef struct fpt_face_place {
+    /**
+     * A value of fpt_face_standing.
+     */
+    uint32_t standing;
+    /**
+     * On an edge: the number of its loop; else UINT32_MAX.
+     */
+    uint32_t loop_index;
+    /**
+     * On an edge: the number of the pcurve in its loop; else UINT32_MAX.
+     */
+    uint32_t coedge_index;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+    /**
+     * On an edge: the parameter of the pcurve; else NaN.
+     */
+    double parameter;
+} fpt_face_place;
 
 #ifdef __cplusplus
 extern "C" {
@@ -4505,6 +4717,209 @@ fpt_status fpt_trim_picture(const struct fpt_trim *const *trims,
                             size_t capacity,
                             char *out,
                             size_t *out_length);
+
+/**
+ * Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.
+ * Does nothing when `options` is NULL or struct_size is smaller than a size_t.
+ * @since 0.1
+ */
+void fpt_pull_options_init(struct fpt_pull_options *options, size_t struct_size);
+
+/**
+ * Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.
+ * Does nothing when `options` is NULL or struct_size is smaller than a size_t.
+ * @since 0.1
+ */
+void fpt_lift_options_init(struct fpt_lift_options *options, size_t struct_size);
+
+/**
+ * The pcurves of an edge: curves u,v,0 in the domain of the surface whose images are the edge, up to a proven deviation, with
+ * the edge's parameter.
+ *
+ * The edge is inverted along its way, with proof, and followed over seams; where it crosses a seam or meets a collapsed edge the
+ * pcurve is cut, since the domain demands it: the pieces there end and begin on the border of the domain, bit for bit. A line
+ * is taken where it is near enough, otherwise a spline by least squares, whose knots are added until the bound of the
+ * deviation is below the tolerance. The bound holds at all parameters, not at samples: no piece leaves the edge for another
+ * branch in between. An edge that is not on the surface gets the pcurve of its feet, and flags that say so.
+ *
+ * Cost: some hundred microseconds to some milliseconds.
+ *
+ * @param surface  a spline surface
+ * @param edge     a spline curve in space
+ * @param options  NULL: the defaults
+ * @param out      the set; release it with fpt_pcurve_set_free
+ * @return FPT_INVALID_ARGUMENT also for an edge that is a single point up to the tolerance, and for one whose feet jump from one
+ *         branch of the surface to another
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_pcurve_pull(const struct fpt_surface *surface,
+                           const struct fpt_curve *edge,
+                           const struct fpt_pull_options *options,
+                           struct fpt_pcurve_set **out);
+
+/**
+ * The number of pcurves: one, or more where seams and collapsed edges cut the edge.
+ * @since 0.1
+ */
+FPT_MUST_USE fpt_status fpt_pcurve_set_count(const struct fpt_pcurve_set *set, size_t *out_count);
+
+/**
+ * A pcurve and its proof. Its domain is the part of the edge's domain that it belongs to.
+ *
+ * @param index         below the count, else FPT_INVALID_ARGUMENT
+ * @param out_pcurve    a new handle with z = 0; release it with fpt_curve_free
+ * @param out_deviation distance between its image and the edge, and where it runs; NULL: not wanted
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_pcurve_set_get(const struct fpt_pcurve_set *set,
+                              size_t index,
+                              struct fpt_curve **out_pcurve,
+                              struct fpt_deviation *out_deviation);
+
+/**
+ * Releases a set. NULL is fine. No other call may use the handle during or after this one.
+ * @since 0.1
+ */
+void fpt_pcurve_set_free(struct fpt_pcurve_set *set);
+
+/**
+ * The image of a pcurve in space, with the pcurve's parameter: the isocurve for an isoline, the composed curve where degrees allow,
+ * else a spline with a proven deviation.
+ *
+ * @param surface       a spline surface
+ * @param pcurve        a spline curve with z = 0 in the domain of the surface
+ * @param options       NULL: the defaults
+ * @param out_curve     a new handle; release it with fpt_curve_free
+ * @param out_deviation how far it is from the image; FPT_DEVIATION_EXACT, or FPT_DEVIATION_NOT_PROVEN when the tolerance was not reached.
+ *                      NULL: not wanted
+ * @return FPT_INVALID_ARGUMENT also for a pcurve that leaves the domain
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_pcurve_lift(const struct fpt_surface *surface,
+                           const struct fpt_curve *pcurve,
+                           const struct fpt_lift_options *options,
+                           struct fpt_curve **out_curve,
+                           struct fpt_deviation *out_deviation);
+
+/**
+ * The greatest distance between a curve in space and the image of a pcurve at equal parameters, on the common part of their
+ * domains, with proof: for checking what another program gives.
+ *
+ * @param surface  a spline surface
+ * @param pcurve   a spline curve with z = 0 in the domain of the surface
+ * @param curve    a spline curve in space
+ * @param out      bound and value differ by some per cent, or by rounding; flags are 0
+ * @return FPT_INVALID_ARGUMENT also for a pcurve that leaves the domain, or domains that have nothing in common
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_pcurve_deviation(const struct fpt_surface *surface,
+                                const struct fpt_curve *pcurve,
+                                const struct fpt_curve *curve,
+                                struct fpt_deviation *out);
+
+/**
+ * Prepares a face for queries. The face is where a ray in the domain crosses the loops an odd number of times: their direction
+ * does not count, holes are what is inside of two. Cost: that of the surface's index, some microseconds a pcurve, some
+ * milliseconds for one whose image must be fitted.
+ *
+ * @param data  the inputs, copied
+ * @param out   the handle; release it with fpt_face_free
+ * @return FPT_INVALID_ARGUMENT names loop and pcurve, also for one that leaves the domain
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_face_new(const struct fpt_face_data *data,
+                        struct fpt_face **out);
+
+/**
+ * Prepares a trimmed surface for queries: as fpt_face_new, with the surface and the loops of `trim`; its edges in space play no part, the
+ * border of a face is the image of its pcurves.
+ *
+ * @param trim  a trimmed surface over a spline surface; one over an elementary surface or a function is FPT_UNSUPPORTED, see
+ *              fpt_trim_to_nurbs
+ * @param out   the handle; release it with fpt_face_free. Parameters of answers are those of the surface, those of places the
+ *              parameters of the coedges' pcurves; an arc's are those of its NURBS form, the angle at the ends of quarter turns only
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_face_of_trim(const struct fpt_trim *trim,
+                            struct fpt_face **out);
+
+/**
+ * Releases a face. NULL is fine. No other call may use the handle during or after this one.
+ * @since 0.1
+ */
+void fpt_face_free(struct fpt_face *face);
+
+/**
+ * On which side of its edges places of the domain lie: inside, outside, or within options->tolerance of an edge, in space.
+ *
+ * Sides are exact: only places nearer to a pcurve than the rounding of its poles, some 1e-13 of them, cannot be told from places on it,
+ * and these are on the edge for any tolerance that is not smaller. Places outside the domain are outside.
+ *
+ * @param uv       `count` pairs u,v, packed. A pair that is not finite is FPT_FACE_UNKNOWN
+ * @param count    may be 0, then `uv` and `out` may be NULL
+ * @param options  tolerance (0: 1e-7 x the diagonal of the surface's box), budget, threads, should_stop and progress count;
+ *                 NULL: the defaults
+ * @param out      `count` places
+ * @return FPT_CANCELLED when should_stop said so; then the places not reached are FPT_FACE_UNKNOWN
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_face_classify(const struct fpt_face *face,
+                             const double *uv,
+                             size_t count,
+                             const struct fpt_query_options *options,
+                             struct fpt_face_place *out);
+
+/**
+ * The nearest point of the face for each query point, with a proven lower bound of the distance: as fpt_surface_closest, for the
+ * part of the surface that the loops leave.
+ *
+ * Where the nearest point of the surface is inside, it is the answer. Otherwise the nearest point of the edges is, unless the surface
+ * has a nearer stationary point inside the face: all of those are looked for, with proof that none is missing.
+ *
+ * @param points     `count` query points x,y,z, options->point_stride bytes apart. A bad point (NaN, infinite, beyond 1e100)
+ *                   marks its own record with FPT_FOOT_BAD_QUERY
+ * @param count      may be 0, then all arrays may be NULL
+ * @param options    NULL: the defaults. `domain` must be all 0, `scope` global and `trace` NULL: FPT_UNSUPPORTED. The
+ *                   tolerance tells from where on a foot is on an edge; the budget is that of each search
+ * @param out        `count` records, packed; must not overlap `points` or the hints. FPT_FOOT_EDGE, _CORNER, _SEAM and _COLLAPSED are
+ *                   about the domain of the surface
+ * @param out_places `count` places: where on the face the foot lies; NULL: not wanted
+ * @return as fpt_surface_closest
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_face_closest(const struct fpt_face *face,
+                            const double *points,
+                            size_t count,
+                            const struct fpt_query_options *options,
+                            struct fpt_foot_point *out,
+                            struct fpt_face_place *out_places);
+
+/**
+ * All parameters of the face whose point lies within a tolerance of a point, with proof that none is missing: the members of
+ * fpt_surface_preimage that lie in the face or within the tolerance of its edges.
+ *
+ * @param point      3 finite numbers
+ * @param tolerance  length, finite, >= 0; 0: 1e-7 x the diagonal of the surface's box
+ * @param options    budget, should_stop and user count; NULL: the defaults. `domain` must be all 0
+ * @param out        the set; release it with fpt_foot_set_free. Intervals of arcs and regions are those on the surface
+ * @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided boxes: also arcs of which only a sliver may belong
+ *         to the face
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_face_preimage(const struct fpt_face *face,
+                             const double *point,
+                             double tolerance,
+                             const struct fpt_query_options *options,
+                             struct fpt_foot_set **out);
 
 #ifdef __cplusplus
 }  // extern "C"

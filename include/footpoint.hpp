@@ -923,6 +923,122 @@ private:
     std::unique_ptr<fpt_scene, deleter> handle_;
 };
 
+/** fpt_pull_options that begin as the defaults. */
+struct pull_options : fpt_pull_options {
+    pull_options() noexcept : fpt_pull_options() { fpt_pull_options_init(this, sizeof(fpt_pull_options)); }
+};
+
+/** fpt_lift_options that begin as the defaults. */
+struct lift_options : fpt_lift_options {
+    lift_options() noexcept : fpt_lift_options() { fpt_lift_options_init(this, sizeof(fpt_lift_options)); }
+};
+
+/** A pcurve that was pulled back, or the image of one, and how far it is proven to be from what it stands for. */
+struct proven_curve {
+    curve shape;
+    fpt_deviation deviation;
+};
+
+/** The pcurves of an edge on a surface, in its order, as fpt_pcurve_pull. */
+inline std::vector<proven_curve> pull(const surface &shape, const curve &edge,
+                                      const fpt_pull_options &options = pull_options()) {
+    struct deleter {
+        void operator()(fpt_pcurve_set *handle) const noexcept { fpt_pcurve_set_free(handle); }
+    };
+    fpt_pcurve_set *made = nullptr;
+    check(fpt_pcurve_pull(shape.get(), edge.get(), &options, &made));
+    const std::unique_ptr<fpt_pcurve_set, deleter> set(made);
+    const std::size_t count = detail::value<fpt_pcurve_set, std::size_t>(fpt_pcurve_set_count, set.get());
+    std::vector<proven_curve> out;
+    for (std::size_t i = 0; i < count; i++) {
+        fpt_curve *piece = nullptr;
+        fpt_deviation told{};
+        check(fpt_pcurve_set_get(set.get(), i, &piece, &told));
+        out.push_back({curve(piece), told});
+    }
+    return out;
+}
+/** The image of a pcurve, as fpt_pcurve_lift. */
+inline proven_curve lift(const surface &shape, const curve &pcurve, const fpt_lift_options &options = lift_options()) {
+    fpt_curve *image = nullptr;
+    fpt_deviation told{};
+    check(fpt_pcurve_lift(shape.get(), pcurve.get(), &options, &image, &told));
+    return {curve(image), told};
+}
+/** How far a curve in space is from the image of a pcurve, as fpt_pcurve_deviation. */
+inline fpt_deviation deviation(const surface &shape, const curve &pcurve, const curve &image) {
+    fpt_deviation out{};
+    check(fpt_pcurve_deviation(shape.get(), pcurve.get(), image.get(), &out));
+    return out;
+}
+
+/** Feet on a face, and where on it they are. */
+struct face_feet {
+    std::vector<fpt_foot_point> feet;
+    std::vector<fpt_face_place> places;
+};
+
+/** A surface bounded by loops of pcurves: owner of an fpt_face. */
+class face {
+public:
+    /** As fpt_face_new: the pcurves of each loop in order; surface and pcurves may go before the face does. */
+    face(const surface &shape, span<const std::vector<const curve *>> loops) : handle_(make(shape, loops)) {}
+
+    /** Takes a handle over. */
+    explicit face(fpt_face *handle) noexcept : handle_(handle) {}
+
+    /** The handle, still owned here. */
+    const fpt_face *get() const noexcept { return handle_.get(); }
+    /** The handle, owned by the caller from now on. */
+    fpt_face *release() noexcept { return handle_.release(); }
+
+    /** On which side of the edges places u,v are. */
+    std::vector<fpt_face_place> classify(span<const double> uv, const fpt_query_options &options = query_options()) const {
+        detail::require(uv.size() % 2 == 0, "uv: the length is not even");
+        std::vector<fpt_face_place> out(uv.size() / 2);
+        check(fpt_face_classify(get(), uv.data(), out.size(), &options, out.data()));
+        return out;
+    }
+    /** One record per query point, x,y,z each, and where on the face it is. */
+    face_feet closest(span<const double> points, const fpt_query_options &options = query_options()) const {
+        const std::size_t count = detail::point_count(points, options);
+        face_feet out{std::vector<fpt_foot_point>(count), std::vector<fpt_face_place>(count)};
+        check(fpt_face_closest(get(), points.data(), count, &options, out.feet.data(), out.places.data()));
+        return out;
+    }
+    /** All parameters of the face within a tolerance of a point; 0: the default. */
+    foot_set preimage(const point &query, double tolerance = 0, const fpt_query_options &options = query_options()) const {
+        return detail::set([&](fpt_foot_set **out) {
+            return fpt_face_preimage(get(), query.data(), tolerance, &options, out);
+        });
+    }
+
+private:
+    struct deleter {
+        void operator()(fpt_face *handle) const noexcept { fpt_face_free(handle); }
+    };
+
+    static fpt_face *make(const surface &shape, span<const std::vector<const curve *>> loops) {
+        std::vector<std::size_t> counts;
+        std::vector<const fpt_curve *> pcurves;
+        for (const std::vector<const curve *> &loop : loops) {
+            counts.push_back(loop.size());
+            for (const curve *pcurve : loop) pcurves.push_back(pcurve == nullptr ? nullptr : pcurve->get());
+        }
+        fpt_face_data data{};
+        data.struct_size = sizeof data;
+        data.surface = shape.get();
+        data.loop_count = counts.size();
+        data.coedge_counts = counts.data();
+        data.pcurves = pcurves.data();
+        fpt_face *out = nullptr;
+        check(fpt_face_new(&data, &out));
+        return out;
+    }
+
+    std::unique_ptr<fpt_face, deleter> handle_;
+};
+
 /** fpt_weights_options that begin as the defaults. */
 struct weights_options : fpt_weights_options {
     weights_options() noexcept : fpt_weights_options() {
@@ -1366,6 +1482,13 @@ public:
 
     const fpt_trim *get() const noexcept { return handle_.get(); }
     fpt_trim *release() noexcept { return handle_.release(); }
+
+    /** Prepared for point queries, as fpt_face_of_trim. */
+    face prepared() const {
+        fpt_face *out = nullptr;
+        check(fpt_face_of_trim(get(), &out));
+        return face(out);
+    }
 
     footpoint::support support() const {
         fpt_support *out = nullptr;

@@ -20,6 +20,8 @@ mod circle;
 
 mod net;
 
+pub(crate) use net::part;
+
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::bounds::{Vector, add, cross, dot, norm, scaled, sub};

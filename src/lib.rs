@@ -69,4 +69,6 @@ pub mod pcurve;
 
 pub mod trim;
 
+pub mod face;
+
 mod ffi;

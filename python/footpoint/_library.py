@@ -162,6 +162,27 @@ class FitResult(ctypes.Structure):
 class SweepOptions(ctypes.Structure):
     _fields_ = [("struct_size", c_size_t), ("tolerance", c_double), ("twist", c_double), ("degree", c_uint32), ("close", c_uint32),
                 ("max_poles", c_size_t)]
+class Deviation(ctypes.Structure):
+    _fields_ = [("bound", c_double), ("reached", c_double), ("at", c_double), ("flags", c_uint32), ("reserved", c_uint32)]
+
+
+class PullOptions(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("tolerance", c_double), ("degree", c_size_t), ("pole_limit", c_size_t), ("hint", c_void_p),
+                ("should_stop", StopFunction), ("user", c_void_p)]
+
+
+class LiftOptions(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("tolerance", c_double), ("exact_degree", c_size_t)]
+
+
+class FacePlace(ctypes.Structure):
+    _fields_ = [("standing", c_uint32), ("loop_index", c_uint32), ("coedge_index", c_uint32), ("reserved", c_uint32),
+                ("parameter", c_double)]
+
+
+class FaceData(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("surface", c_void_p), ("loop_count", c_size_t), ("coedge_counts", c_void_p),
+                ("pcurves", c_void_p)]
 
 
 STRUCTS: dict[str, type[ctypes.Structure]] = {
@@ -174,6 +195,8 @@ STRUCTS: dict[str, type[ctypes.Structure]] = {
     "fpt_relation_callback": RelationCallback, "fpt_elementary_data": ElementaryData, "fpt_coedge_data": CoedgeData,
     "fpt_loop_data": LoopData, "fpt_edge_data": EdgeData, "fpt_trim_data": TrimData, "fpt_change_options": ChangeOptions,
     "fpt_change_summary": ChangeSummary, "fpt_trim_finding": TrimFinding, "fpt_trim_summary": TrimSummary,
+    "fpt_deviation": Deviation, "fpt_pull_options": PullOptions, "fpt_lift_options": LiftOptions, "fpt_face_place": FacePlace,
+    "fpt_face_data": FaceData,
 }
 
 # One letter an argument: p pointer (arrays, handles, structs), z size_t, d double, I uint32_t, i int32_t.
@@ -223,6 +246,8 @@ _STATUS = {
     "trim_to_nurbs": "ppppp", "trim_to_elementary": "pppppp", "trim_follow": "ppppp", "trim_merge": "ppIppp",
     "trim_report_new": "pdp", "trim_report_summary": "pp", "trim_report_get": "pzp", "trim_to_json": "pzpp",
     "trim_from_json": "pzp", "trim_picture": "ppzpzpp",
+    "pcurve_pull": "pppp", "pcurve_set_count": "pp", "pcurve_set_get": "pzpp", "pcurve_lift": "ppppp", "pcurve_deviation": "pppp",
+    "face_new": "pp", "face_of_trim": "pp", "face_classify": "ppzpp", "face_closest": "ppzppp", "face_preimage": "ppdpp",
 }
 _OTHER = {
     "last_error": ("", c_char_p), "status_name": ("i", c_char_p), "version": ("", c_uint32), "abi_version": ("", c_uint32),
@@ -231,6 +256,7 @@ _OTHER = {
     "surface_free": ("p", None), "foot_set_free": ("p", None), "scene_free": ("p", None),
     "change_options_init": ("pz", None), "relation_free": ("p", None), "transform_free": ("p", None), "support_free": ("p", None),
     "trim_free": ("p", None), "trim_report_free": ("p", None),
+    "pull_options_init": ("pz", None), "lift_options_init": ("pz", None), "pcurve_set_free": ("p", None), "face_free": ("p", None),
 }
 PROTOTYPES = {name: (letters, c_int32) for name, letters in _STATUS.items()} | _OTHER
 

@@ -9,7 +9,7 @@ import pytest
 from shapes import ROOT, circle, cloud, cylinder, hill
 
 import footpoint
-from footpoint import _feet, _library, construct, trims, weights
+from footpoint import _face, _feet, _library, construct, pcurve, trims, weights
 
 HEADER = re.sub(r"/\*.*?\*/", "", (ROOT / "include" / "footpoint.h").read_text(encoding="utf-8"), flags=re.S)
 SCALARS = {"size_t": ctypes.c_size_t, "double": ctypes.c_double, "uint32_t": ctypes.c_uint32, "int32_t": ctypes.c_int32,
@@ -62,7 +62,8 @@ def test_structs():
                                           (construct.Condition, "FPT_FIT_"), (construct.ArcForm, "FPT_ARC_"),
                                           (construct.QuadricKind, "FPT_QUADRIC_"), (trims.ElementaryKind, "FPT_ELEMENTARY_"),
                                           (trims.PcurveKind, "FPT_PCURVE_"), (trims.CoedgeFlag, "FPT_COEDGE_"),
-                                          (trims.Replacement, "FPT_REPLACEMENT_"), (trims.FindingKind, "FPT_FINDING_")])
+                                          (trims.Replacement, "FPT_REPLACEMENT_"), (trims.FindingKind, "FPT_FINDING_"),
+                                          (pcurve.PcurveFlag, "FPT_DEVIATION_"), (footpoint.Standing, "FPT_FACE_")])
 def test_enums(enum: type[Enum], prefix):
     listed = {name: int(value) for name, value in re.findall(rf"^\s*{prefix}(\w+) = (\d+),", HEADER, re.M)}
     assert listed == {name: int(member) for name, member in enum.__members__.items()}
@@ -70,7 +71,7 @@ def test_enums(enum: type[Enum], prefix):
 
 def test_records():
     for struct, dtype in ((_library.FootPoint, _feet.FOOT), (_library.FootMember, _feet.MEMBER), (_library.WeightsPole, weights.POLE),
-                          (_library.WeightsOutcome, weights.OUTCOME)):
+                          (_library.WeightsOutcome, weights.OUTCOME), (_library.FacePlace, _face.PLACE)):
         assert dtype.itemsize == ctypes.sizeof(struct)
         assert {name: dtype.fields[name][1] for name in dtype.names} == {name: getattr(struct, name).offset for name, _ in struct._fields_}
     assert _library.ABI_VERSION == int(re.search(r"#define FPT_ABI_VERSION (\d+)", HEADER)[1])
@@ -145,10 +146,17 @@ def test_every_function_is_reached(monkeypatch):
     weights.standard_form(arch), weights.positive_form(1, [0, 0, 1, 1], [[0, 0, 0, 1], [1, 0, 0, 1]])
     reach_trims()
     reach_constructions()
+    line = footpoint.Curve.from_poles(1, [[0, 0], [1, 1]])
+    (pulled, _), = pcurve.pull(hill(), pcurve.lift(hill(), line)[0])
+    pcurve.deviation(hill(), pulled, pcurve.lift(hill(), line)[0])
+    outline = footpoint.Curve(1, [0, 0, 1, 2, 3, 3], [[0, 0], [1, 0], [0, 1], [0, 0]])
+    face = footpoint.Face(hill(), [[outline]])
+    footpoint.Face.of_trim(trims.TrimmedSurface.whole(trims.Support(hill())))
+    face.classify([0.2, 0.3]), face.closest(points), face.preimage(hill().evaluate([0.2, 0.3]))
     footpoint.version(), footpoint.abi_version()
     with pytest.raises(RuntimeError, match="FPT_INTERNAL"):
         raise _library.failure(_library.INTERNAL)
-    del curve, surface, shape, scene, query
+    del curve, surface, shape, scene, query, face
     assert set(_library.PROTOTYPES) - reached == set()
 
 
