@@ -62,7 +62,7 @@ fn random_face(seed: u64) -> Face {
         }
     }
     let weights: Vec<f64> = (0..25).map(|_| r.between(0.5, 2.0)).collect();
-    let rational = seed % 2 == 0;
+    let rational = seed.is_multiple_of(2);
     let surface =
         Surface::new(&knots, &knots, 3, 3, &poles, 5, 5, rational.then_some(&weights)).unwrap();
     let outer = blob([0.5, 0.5], [0.5, 0.45], 9, false, &mut r);

@@ -178,7 +178,7 @@ fn ribbon(turns: usize) -> IndexedSurface {
     let options = Adaptive { degree: 5, tolerance: 1e-9, ..Adaptive::default() };
     let row = |r: f64, z: f64| {
         let helix =
-            move |t: f64| Some([r * t.cos(), r * t.sin(), z + 0.12 * t / 6.283185307179586]);
+            move |t: f64| Some([r * t.cos(), r * t.sin(), z + 0.12 * t / std::f64::consts::TAU]);
         of_function(helix, [from, to], &options).unwrap().spline
     };
     let (inner, outer) = (row(1.0, 0.0), row(1.1, 0.05));
