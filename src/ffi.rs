@@ -12,6 +12,7 @@
 //!                                                              query.rs, floats.rs, sets.rs, lines.rs
 //!                   -> normal, unwrap                          normals.rs, path.rs
 //!                   -> scene                                   scene.rs, scene_query.rs
+//!                   -> pcurve, face                            pcurve.rs, face.rs
 //!                   -> weights                                 weights.rs, weights_records.rs, weights_report.rs, weights_edit.rs
 //!                   -> transform, trim                         transform.rs, support.rs, trim.rs, trim_parts.rs,
 //!                                                              trim_change.rs, trim_report.rs
@@ -45,6 +46,12 @@ mod weights_records;
 mod weights_report;
 mod weights;
 mod weights_edit;
+mod fit;
+mod construct;
+mod construct_surface;
+mod offset;
+mod pcurve;
+mod face;
 mod transform;
 mod support;
 mod trim;

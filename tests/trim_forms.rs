@@ -4,7 +4,7 @@ mod faces;
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use faces::{KINDS, Random, face, sphere};
+use faces::{FORMS, KINDS, Random, face, sphere};
 use footpoint::bounds::{norm, sub};
 use footpoint::curve::Curve;
 use footpoint::elementary::{Axes, CircleForm, Elementary, ElementarySurface};
@@ -98,7 +98,7 @@ fn raised_and_refined_surfaces_keep_the_domain_bit_for_bit() {
     let options = ChangeOptions::default();
     for kind in 0..KINDS.len() {
         let (surface, face) = face(kind, &mut random);
-        let forms = [CircleForm::Halves, CircleForm::Arcs(2)];
+        let forms = FORMS[kind % FORMS.len()];
         let vertices = ChangeOptions { replacement: Replacement::Vertices, ..options };
         let spline = face.to_nurbs(forms, &vertices).unwrap().face;
         let Support::Spline(support) = spline.support() else { unreachable!() };

@@ -23,7 +23,9 @@ fn vertices(pcurve: &Pcurve) -> Vec<[f64; 2]> {
 }
 
 /// Loops, kinds, coedges, edges and their senses, flip: all that is not geometry.
-fn topology(face: &TrimmedSurface) -> Vec<(LoopKind, Vec<(Option<usize>, bool)>)> {
+type Topology = Vec<(LoopKind, Vec<(Option<usize>, bool)>)>;
+
+fn topology(face: &TrimmedSurface) -> Topology {
     let coedges =
         |chain: &Loop| chain.coedges.iter().map(|c| (c.edge, c.reversed)).collect::<Vec<_>>();
     face.loops().iter().map(|chain| (chain.kind, coedges(chain))).collect()
