@@ -60,7 +60,7 @@ fn check_branch(
         let apart = (0..3).map(|k| (x[k] - y[k]).abs()).fold(0.0, f64::max);
         assert!(apart <= allowed, "{name}: {apart:e} apart");
         // Near a crossing the surfaces meet at an angle that falls with the distance, and the place is as much less certain.
-        let allowed = allowed * (0.05 / nearest).max(1.0).min(1e5);
+        let allowed = allowed * (0.05 / nearest).clamp(1.0, 1e5);
         assert!(off <= allowed, "{name}: {off:e} > {allowed:e} at {p:?}, gap {:e}", branch.gap);
     }
     if branch.is_closed() {
