@@ -59,9 +59,9 @@ pub mod operate;
 
 pub mod fit;
 
-pub mod construct;
-
 pub mod elementary;
+
+pub mod construct;
 
 pub mod transform;
 
