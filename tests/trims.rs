@@ -22,8 +22,11 @@ fn vertices(pcurve: &Pcurve) -> Vec<[f64; 2]> {
     }
 }
 
-/// Loops, kinds, coedges, edges and their senses, flip: all that is not geometry.
-fn topology(face: &TrimmedSurface) -> Vec<(LoopKind, Vec<(Option<usize>, bool)>)> {
+/// The edge of a coedge and its sense.
+type Use = (Option<usize>, bool);
+
+/// Loops, kinds, coedges, edges and their senses: all that is not geometry.
+fn topology(face: &TrimmedSurface) -> Vec<(LoopKind, Vec<Use>)> {
     let coedges =
         |chain: &Loop| chain.coedges.iter().map(|c| (c.edge, c.reversed)).collect::<Vec<_>>();
     face.loops().iter().map(|chain| (chain.kind, coedges(chain))).collect()
