@@ -330,7 +330,7 @@ fn text_that_is_no_face_is_refused_with_its_place() {
     }
 }
 
-/// The pictures of README and guide are made by this test when asked: `FOOTPOINT_PICTURES=folder`.
+/// With `FOOTPOINT_PICTURES=folder` the picture is written there, to be looked at.
 #[test]
 fn a_picture_shows_each_face_with_finite_numbers() {
     let mut random = Random(41);

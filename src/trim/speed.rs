@@ -24,6 +24,9 @@ use crate::surface::Surface;
 /// Cuts of each span for bounds of a support: speeds vary inside a span.
 const CUTS: usize = 4;
 
+/// Rounding of differences of coefficients, as a share of the coefficients.
+const ROUNDING: f64 = 32.0 * f64::EPSILON;
+
 /// Above the rounding of every bound.
 const LOOSE: f64 = 1.0 + 1e-9;
 
@@ -195,12 +198,18 @@ fn cuts(knots: &Knots, span: usize) -> impl Iterator<Item = [f64; 2]> {
 fn first_order(rows: &[Vec<[f64; 4]>], h: f64) -> f64 {
     let all = || rows.iter().flatten();
     let least = all().fold(f64::INFINITY, |m, r| m.min(r[3]));
-    let place = |r: &[f64; 4]| norm([r[0] / r[3], r[1] / r[3], r[2] / r[3]]);
-    let reach = all().map(place).fold(0.0, f64::max);
+    let place = |r: &[f64; 4]| [r[0] / r[3], r[1] / r[3], r[2] / r[3]];
+    let size = all().map(|r| norm(place(r))).fold(0.0, f64::max);
+    // Seen from the middle of the net, so that weights count little.
+    let count = all().count() as f64;
+    let center: Vector = std::array::from_fn(|c| all().map(|r| place(r)[c]).sum::<f64>() / count);
+    let reach = all().map(|r| norm(sub(place(r), center))).fold(0.0, f64::max);
     let (mut a, mut w) = (0.0f64, 0.0f64);
     for pair in rows.iter().flat_map(|row| row.windows(2)) {
-        let d: [f64; 4] = std::array::from_fn(|c| pair[1][c] - pair[0][c]);
-        (a, w) = (a.max(norm([d[0], d[1], d[2]])), w.max(d[3].abs()));
+        let dw = pair[1][3] - pair[0][3];
+        let d: Vector = std::array::from_fn(|c| (pair[1][c] - pair[0][c]) - dw * center[c]);
+        let most = pair[0][3].max(pair[1][3]);
+        (a, w) = (a.max(norm(d) + ROUNDING * size * most), w.max(dw.abs()));
     }
     let p = (rows[0].len() - 1) as f64;
     p / h * (a + w * reach) / least
