@@ -22,18 +22,11 @@ fn vertices(pcurve: &Pcurve) -> Vec<[f64; 2]> {
     }
 }
 
-<<<<<<< HEAD
-/// Loops, kinds, coedges, edges and their senses, flip: all that is not geometry.
-type Topology = Vec<(LoopKind, Vec<(Option<usize>, bool)>)>;
-
-fn topology(face: &TrimmedSurface) -> Topology {
-=======
 /// The edge of a coedge and its sense.
 type Use = (Option<usize>, bool);
 
 /// Loops, kinds, coedges, edges and their senses: all that is not geometry.
 fn topology(face: &TrimmedSurface) -> Vec<(LoopKind, Vec<Use>)> {
->>>>>>> trim
     let coedges =
         |chain: &Loop| chain.coedges.iter().map(|c| (c.edge, c.reversed)).collect::<Vec<_>>();
     face.loops().iter().map(|chain| (chain.kind, coedges(chain))).collect()
