@@ -53,4 +53,8 @@ pub mod batch;
 
 pub mod weights;
 
+pub mod fair;
+
+pub mod inspect;
+
 mod ffi;

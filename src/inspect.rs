@@ -1,0 +1,19 @@
+//! Inspection: how a curve bends, how a surface bends, how two shapes meet and how far they are apart.
+//!
+//! Numbers that are called bounds are proven, rounding included: see [`surface_range`], [`hausdorff`]. The others are
+//! evaluations.
+//!
+//! Reference: Hagen, Hahmann, Schreiber, *Visualization and computation of curvature behaviour of freeform curves and
+//! surfaces*, 1995.
+
+mod interval;
+
+mod slope;
+
+mod polynomial;
+
+mod cell;
+
+mod ranges;
+
+pub use ranges::{Quantity, Range, RangeOptions, curve_range, surface_range};
