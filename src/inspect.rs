@@ -16,4 +16,10 @@ mod cell;
 
 mod ranges;
 
+mod bend;
+
 pub use ranges::{Quantity, Range, RangeOptions, curve_range, surface_range};
+pub use bend::{
+    Inflection, Monotone, Tooth, Trend, comb, inflections, monotone_pieces, plane_normal, tooth,
+    turn_count,
+};
