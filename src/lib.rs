@@ -53,6 +53,14 @@ pub mod batch;
 
 pub mod weights;
 
+pub mod fit;
+
+pub mod elementary;
+
+pub mod pcurve;
+
+pub mod trim;
+
 pub mod fair;
 
 pub mod inspect;
