@@ -18,8 +18,20 @@ mod ranges;
 
 mod bend;
 
-pub use ranges::{Quantity, Range, RangeOptions, curve_range, surface_range};
+mod umbilic;
+
+mod picture;
+
+mod hausdorff;
+
+mod continuity;
+
 pub use bend::{
     Inflection, Monotone, Tooth, Trend, comb, inflections, monotone_pieces, plane_normal, tooth,
     turn_count,
 };
+pub use continuity::{Continuity, Measured, continuity};
+pub use hausdorff::{Directed, Hausdorff, HausdorffOptions, Shape, hausdorff};
+pub use picture::{Pattern, Picture, PictureOptions, picture};
+pub use ranges::{Quantity, Range, RangeOptions, curve_range, surface_range};
+pub use umbilic::{Curvatures, Umbilic, curvatures, umbilics};

@@ -141,7 +141,13 @@ fn bounds_hold_dense_samples_of_every_case() {
             let gap = (found.greatest[1] - found.greatest[0]) / found.greatest[1];
             println!(
                 "{:28} {:9.3} ms {:6} boxes  radius {:.6e} gap {:.1e} excluded {} {}",
-                case.name, time * 1e3, found.boxes, 1.0 / found.greatest[1], gap, found.excluded.len(), found.proven
+                case.name,
+                time * 1e3,
+                found.boxes,
+                1.0 / found.greatest[1],
+                gap,
+                found.excluded.len(),
+                found.proven
             );
         }
         let surface = indexed.surface();
@@ -157,7 +163,11 @@ fn bounds_hold_dense_samples_of_every_case() {
                 let Some([greater, less]) = principal(surface, u, v) else { continue };
                 let sharp = greater.abs().max(less.abs());
                 let slack = 1e-6 * sharp + 1e-9 / case.diagonal;
-                assert!(sharp <= found.greatest[1] + slack, "{} {u} {v} {sharp} {found:?}", case.name);
+                assert!(
+                    sharp <= found.greatest[1] + slack,
+                    "{} {u} {v} {sharp} {found:?}",
+                    case.name
+                );
                 assert!(sharp >= found.least[0] - slack, "{} {u} {v} {sharp} {found:?}", case.name);
             }
         }

@@ -73,7 +73,9 @@ pub(super) fn check_number(name: &str, x: f64, least: f64) -> Result<(), Error> 
     if x.is_finite() && x >= least {
         return Ok(());
     }
-    Err(Error::InvalidArgument(format!("{name}: {x} given, a finite number of at least {least} expected")))
+    Err(Error::InvalidArgument(format!(
+        "{name}: {x} given, a finite number of at least {least} expected"
+    )))
 }
 
 /// Refuses a deviation that is not positive.
@@ -160,7 +162,9 @@ fn freedom(curve: &Curve, fairing: &CurveFairing) -> (Vec<Option<usize>>, usize,
             let poles = 0..=order.min(p);
             poles.for_each(|i| fixed[if k == 0 { i } else { count - 1 - i }] = true);
         } else {
-            kept.extend(rows.chunks_exact(p + 1).take(p.min(order) + 1).map(|row| cell(first, row)));
+            kept.extend(
+                rows.chunks_exact(p + 1).take(p.min(order) + 1).map(|row| cell(first, row)),
+            );
         }
     }
     for &u in &fairing.through {

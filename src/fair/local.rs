@@ -50,7 +50,8 @@ impl Problem<'_> {
                     return None;
                 }
                 let (here, old) = (state.poles[twins[k][0]], state.old[twins[k][0]]);
-                let goal = within(old, self.radius, here, sub(here, scaled(slopes[k], 1.0 / diagonal[k])));
+                let goal =
+                    within(old, self.radius, here, sub(here, scaled(slopes[k], 1.0 / diagonal[k])));
                 let way = sub(goal, here);
                 let gain = -2.0 * dot(slopes[k], way) - diagonal[k] * dot(way, way);
                 Some((gain, k, goal))
@@ -58,9 +59,9 @@ impl Problem<'_> {
             let best = (0..self.count).filter_map(goal).max_by(|a, b| a.0.total_cmp(&b.0));
             let Some((gain, k, goal)) = best else { return Ok(true) };
             let (before, here) = (state.last(), state.poles[twins[k][0]]);
-            let mut poles = state.poles.clone();
-            twins[k].iter().for_each(|&i| poles[i] = goal);
-            if gain <= LEAST_GAIN * before || !self.advance(state, &poles) {
+            if gain <= LEAST_GAIN * before
+                || !self.move_twins(state, &twins[k], goal, before - gain)
+            {
                 return Ok(true);
             }
             let way = sub(state.poles[twins[k][0]], here);
@@ -71,6 +72,18 @@ impl Problem<'_> {
             }
         }
         Ok(false)
+    }
+
+    /// Moves one pole, whose gain is known, or two that are one.
+    fn move_twins(&self, state: &mut State, twins: &[usize], goal: Vector, energy: f64) -> bool {
+        let mut poles = state.poles.clone();
+        twins.iter().for_each(|&i| poles[i] = goal);
+        if twins.len() > 1 || !(self.allowed)(&poles) {
+            return self.advance(state, &poles);
+        }
+        state.poles = poles;
+        state.energies.push(energy);
+        true
     }
 
     /// The poles of each unknown: two where a closed spline repeats them.

@@ -75,7 +75,6 @@ impl Functional {
     }
 }
 
-
 /// Derivatives 0 to `count` of the rational basis functions at `u`: first pole, and `degree + 1` numbers an order.
 pub fn curve_rows(curve: &Curve, u: f64, side: Side, count: usize) -> (usize, Vec<f64>) {
     let (knots, p) = (curve.knots(), curve.degree());
@@ -90,9 +89,8 @@ pub fn curve_rows(curve: &Curve, u: f64, side: Side, count: usize) -> (usize, Ve
         let sums: Vec<f64> = rows.chunks_exact(p + 1).map(|row| row.iter().sum()).collect();
         for k in 0..=count {
             for i in 0..=p {
-                let lower: f64 = (1..=k)
-                    .map(|j| binomial(k, j) * sums[j] * rows[(k - j) * (p + 1) + i])
-                    .sum();
+                let lower: f64 =
+                    (1..=k).map(|j| binomial(k, j) * sums[j] * rows[(k - j) * (p + 1) + i]).sum();
                 rows[k * (p + 1) + i] = (rows[k * (p + 1) + i] - lower) / sums[0];
             }
         }
@@ -308,7 +306,11 @@ pub fn hull_deviation(new: &[Vector], old: &[Vector]) -> f64 {
     let length = |a: &Vector, b: &Vector| {
         let d = sub(*a, *b);
         let size = d.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-        if size == 0.0 { 0.0 } else { size * dot(scaled(d, 1.0 / size), scaled(d, 1.0 / size)).sqrt() }
+        if size == 0.0 {
+            0.0
+        } else {
+            size * dot(scaled(d, 1.0 / size), scaled(d, 1.0 / size)).sqrt()
+        }
     };
     let most = new.iter().zip(old).map(|(a, b)| length(a, b)).fold(0.0, f64::max);
     most * (1.0 + 16.0 * HALF_ULP)

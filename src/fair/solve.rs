@@ -21,6 +21,9 @@ const RIDGE: f64 = 1e-13;
 /// Solutions tried for one multiplier of all poles.
 const UNIFORM_TRIES: usize = 14;
 
+/// Steps in a row that may gain nothing before the search ends: multipliers take some to find their poles.
+const PATIENCE: usize = 10;
+
 /// What is to be made small, and what is allowed.
 pub struct Problem<'a> {
     /// The energy of the shape.
@@ -88,9 +91,15 @@ impl Problem<'_> {
         let mut multipliers = vec![0.0; self.count];
         for k in 0..steps.min(UNIFORM_TRIES) {
             let exponent = if k == 0 { low } else { 0.5 * (low + high) };
-            multipliers.fill(mean * 10f64.powf(exponent));
+            for (m, d) in multipliers.iter_mut().zip(&diagonal) {
+                *m = d.max(1e-6 * mean) * 10f64.powf(exponent);
+            }
             let reach = self.step(&matrix, &pull, &multipliers, state)?.1;
-            if reach <= 1.0 { high = exponent } else { low = exponent }
+            if reach <= 1.0 {
+                high = exponent
+            } else {
+                low = exponent
+            }
             if k == 0 && reach <= 1.0 {
                 break;
             }
@@ -100,11 +109,11 @@ impl Problem<'_> {
             let before = state.last();
             let (motions, _) = self.step(&matrix, &pull, &multipliers, state)?;
             for (m, d) in multipliers.iter_mut().zip(&motions) {
-                let ratio = (norm(*d) / self.radius).clamp(0.1, 10.0);
-                *m = (*m * ratio * ratio).max(mean * 1e-14);
+                let ratio = (norm(*d) / self.radius).clamp(0.05, 20.0);
+                *m = (*m * ratio).max(mean * 1e-16);
             }
             idle = if before - state.last() > LEAST_GAIN * before { 0 } else { idle + 1 };
-            if idle >= 4 {
+            if idle >= PATIENCE {
                 return Ok(true);
             }
         }
@@ -143,9 +152,8 @@ impl Problem<'_> {
     /// Goes from the present poles towards `goal`, to the least energy on the way; nowhere, and false, when it would rise.
     pub fn advance(&self, state: &mut State, goal: &[Vector]) -> bool {
         let way = differences(goal, &state.poles);
-        let pairs = |a: &[Vector], b: &[Vector]| -> f64 {
-            a.iter().zip(b).map(|(a, b)| dot(*a, *b)).sum()
-        };
+        let pairs =
+            |a: &[Vector], b: &[Vector]| -> f64 { a.iter().zip(b).map(|(a, b)| dot(*a, *b)).sum() };
         let moved = differences(&state.poles, &state.old);
         let slope = pairs(&self.energy.gradient(&state.poles), &way)
             + pairs(&self.distance.gradient(&moved), &way);
@@ -243,7 +251,8 @@ impl Problem<'_> {
     pub fn diagonal(&self) -> Vec<f64> {
         let mut sums = vec![0.0; self.count];
         for functional in [&self.energy, &self.distance] {
-            for (x, unknown) in functional.diagonal(self.unknowns.len()).iter().zip(&self.unknowns) {
+            for (x, unknown) in functional.diagonal(self.unknowns.len()).iter().zip(&self.unknowns)
+            {
                 if let Some(k) = unknown {
                     sums[*k] += x;
                 }

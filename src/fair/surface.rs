@@ -124,9 +124,8 @@ fn freedom(
     let (ku, kv) = (surface.knots_u(), surface.knots_v());
     let (nu, nv) = (ku.pole_count(), kv.pole_count());
     let weight = |i: usize| surface.weights().map_or(1.0, |w| w[i]);
-    let same = |a: usize, b: usize| {
-        surface.poles()[a] == surface.poles()[b] && weight(a) == weight(b)
-    };
+    let same =
+        |a: usize, b: usize| surface.poles()[a] == surface.poles()[b] && weight(a) == weight(b);
     let row_same = |i: usize, k: usize| (0..nv).all(|j| same(i * nv + j, k * nv + j));
     let column_same = |j: usize, k: usize| (0..nu).all(|i| same(i * nv + j, i * nv + k));
     let wrap_u = if repeats(ku) { wrapped(nu, ku.degree(), row_same) } else { 0 };
@@ -156,15 +155,16 @@ fn freedom(
 fn knot_lines(surface: &Surface) -> (Functional, Vec<Vec<usize>>) {
     let (nu, nv) = (surface.knots_u().pole_count(), surface.knots_v().pole_count());
     let (mut cells, mut lines) = (Vec::new(), Vec::new());
-    let mut add = |jumps: Vec<(f64, Cell)>, strands: usize, place: &dyn Fn(usize, usize) -> usize| {
-        for (_, jump) in jumps {
-            lines.push((cells.len()..cells.len() + strands).collect());
-            for strand in 0..strands {
-                let poles = jump.poles.iter().map(|&i| place(i, strand)).collect();
-                cells.push(Cell { poles, rows: jump.rows.clone() });
+    let mut add =
+        |jumps: Vec<(f64, Cell)>, strands: usize, place: &dyn Fn(usize, usize) -> usize| {
+            for (_, jump) in jumps {
+                lines.push((cells.len()..cells.len() + strands).collect());
+                for strand in 0..strands {
+                    let poles = jump.poles.iter().map(|&i| place(i, strand)).collect();
+                    cells.push(Cell { poles, rows: jump.rows.clone() });
+                }
             }
-        }
-    };
+        };
     add(knot_jumps(surface.knots_u()), nv, &|i, j| i * nv + j);
     add(knot_jumps(surface.knots_v()), nu, &|j, i| i * nv + j);
     (Functional(cells), lines)

@@ -53,7 +53,8 @@ pub fn tooth(curve: &Curve, u: f64, side: Side) -> Tooth {
     let mut d = [[0.0; 3]; 4];
     curve.derivatives_on(u, side, 3, &mut d);
     let speed = norm(d[1]);
-    let zero = Tooth { u, point: d[0], tangent: [0.0; 3], bend: [0.0; 3], curvature: 0.0, torsion: 0.0 };
+    let zero =
+        Tooth { u, point: d[0], tangent: [0.0; 3], bend: [0.0; 3], curvature: 0.0, torsion: 0.0 };
     if speed == 0.0 || !speed.is_finite() {
         return zero;
     }
@@ -167,7 +168,9 @@ fn slope_numerator(bending: &Bending) -> (Polynomial, f64) {
 fn zeros(f: &Polynomial, size: f64) -> Vec<Zero<1>> {
     let mut out = Vec::new();
     let is_flat = |low: f64, high: f64, value: f64, is_noise: bool| {
-        is_noise || (value <= FLAT * size && high - low < 1e-3) || value * (high - low) <= 1e-3 * FLAT * size
+        is_noise
+            || (value <= FLAT * size && high - low < 1e-3)
+            || value * (high - low) <= 1e-3 * FLAT * size
     };
     zeros_of(&f.coefficients, f.error, &is_flat, &mut BUDGET.clone(), &mut out);
     out
@@ -291,7 +294,12 @@ fn seen_along(bending: &Bending, normal: Vector) -> Polynomial {
 }
 
 /// Adds the zeros of one segment; gives its last value, when that is not zero.
-fn push_zeros(side: &Polynomial, size: f64, span: Span, found: &mut Vec<Inflection>) -> Option<f64> {
+fn push_zeros(
+    side: &Polynomial,
+    size: f64,
+    span: Span,
+    found: &mut Vec<Inflection>,
+) -> Option<f64> {
     let mut last = Some(value(side, 1.0)).filter(|x| *x != 0.0);
     for zero in zeros(side, size) {
         let interval = [span.global(zero.low[0]), span.global(zero.high[0])];

@@ -37,7 +37,11 @@ pub(super) struct Piece<'a> {
 /// Refuses degrees whose products are too long.
 pub(super) fn check_degree(degree: Bidegree, rational: bool) -> Result<(), Error> {
     let p = degree.s.max(degree.t);
-    let (most, kind) = if rational { ((MAX_TRIPLE + 1) / 6, "rational") } else { ((MAX_TRIPLE + 1) / 4, "polynomial") };
+    let (most, kind) = if rational {
+        ((MAX_TRIPLE + 1) / 6, "rational")
+    } else {
+        ((MAX_TRIPLE + 1) / 4, "polynomial")
+    };
     if p <= most {
         return Ok(());
     }
@@ -87,7 +91,11 @@ impl Forms {
     pub fn new(piece: &Piece) -> Self {
         let (x, weight) = piece.homogeneous();
         let [xs, xt] = [0, 1].map(|k| each(&x, |f| f.derivative(k)));
-        let seconds = [each(&xs, |f| f.derivative(0)), each(&xs, |f| f.derivative(1)), each(&xt, |f| f.derivative(1))];
+        let seconds = [
+            each(&xs, |f| f.derivative(0)),
+            each(&xs, |f| f.derivative(1)),
+            each(&xt, |f| f.derivative(1)),
+        ];
         let turned = Polynomial::cross(refs(&xs), refs(&xt));
         let Some(w) = weight else {
             let second = seconds.map(|second| Polynomial::dot(refs(&turned), refs(&second)));
@@ -140,6 +148,27 @@ impl Forms {
             d = d * w;
         }
         Shape { a, b, d }
+    }
+
+    /// The normal curvature across the isocurves of s (direction 0: the isocurve s = const) or of t (1) on a box.
+    pub fn across(
+        &self,
+        direction: usize,
+        s: [f64; 2],
+        t: [f64; 2],
+        work: &mut Vec<f64>,
+    ) -> Interval {
+        let mut at = |f: &Polynomial| f.on(s, t, work);
+        let (e, f, g) = (at(&self.metric[0]), at(&self.metric[1]), at(&self.metric[2]));
+        let (l, m, q) = (at(&self.second[0]), at(&self.second[1]), at(&self.second[2]));
+        let area = at(&self.area);
+        let (e, l, q) = if direction == 1 { (e, l, q) } else { (g, q, l) };
+        let ratio = f / e;
+        let across = e * (q - ratio * (m.times(2.0) - ratio * l)) / (area * area.sqrt());
+        match &self.weight {
+            Some(weight) => (across * at(weight)).range,
+            None => across.range,
+        }
     }
 
     /// The normal on a box, scaled by the cube of the weight.

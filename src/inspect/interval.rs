@@ -17,9 +17,6 @@ impl Interval {
     /// Nothing is known.
     pub const ENTIRE: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
 
-    /// Zero.
-    pub const ZERO: Self = Self::point(0.0);
-
     /// One number.
     pub const fn point(x: f64) -> Self {
         Self { low: x, high: x }
@@ -142,7 +139,8 @@ mod tests {
 
     #[test]
     fn operations_hold_the_results_of_their_numbers() {
-        let pairs = [(-2.0, 3.0), (0.5, 0.7), (-4.0, -1.0)].map(|(low, high)| Interval { low, high });
+        let pairs =
+            [(-2.0, 3.0), (0.5, 0.7), (-4.0, -1.0)].map(|(low, high)| Interval { low, high });
         for x in pairs {
             for y in pairs {
                 for i in 0..=4 {
@@ -162,7 +160,7 @@ mod tests {
     #[test]
     fn what_is_no_number_tells_nothing() {
         assert_eq!(Interval::point(1.0) / Interval { low: -1.0, high: 1.0 }, Interval::ENTIRE);
-        assert_eq!(Interval::ENTIRE * Interval::ZERO, Interval::ENTIRE);
+        assert_eq!(Interval::ENTIRE * Interval::point(0.0), Interval::ENTIRE);
         assert_eq!(Interval::ENTIRE - Interval::ENTIRE, Interval::ENTIRE);
         let third = Interval::point(1.0) / Interval::point(3.0);
         assert!(third.low < third.high && (third.times(3.0) - Interval::point(1.0)).holds_zero());

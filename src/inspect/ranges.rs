@@ -423,9 +423,8 @@ pub fn curve_range(
     check_degree(Bidegree { s: 0, t: curve.curve().degree() }, true)?;
     let spans: Vec<Span> = index.segments.iter().map(|segment| segment.u).collect();
     let parts = parts_inside(&spans, options.domain.map(|d| [d[0], d[1]]));
-    let starts: Vec<_> = (0..spans.len())
-        .filter_map(|k| parts[k].map(|t| (k, [0.0, 1.0], t)))
-        .collect();
+    let starts: Vec<_> =
+        (0..spans.len()).filter_map(|k| parts[k].map(|t| (k, [0.0, 1.0], t))).collect();
     let pieces: Vec<Bending> =
         (0..spans.len()).map(|k| Bending::new(&segment_piece(index, k))).collect();
     let mut work = Vec::new();

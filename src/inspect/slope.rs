@@ -24,12 +24,6 @@ pub struct Slope<const N: usize> {
 }
 
 impl<const N: usize> Slope<N> {
-    /// A number.
-    pub fn constant(x: f64) -> Self {
-        let x = Interval::point(x);
-        Self { middle: x, range: x, gradient: [Interval::ZERO; N] }
-    }
-
     /// A function of which the range is known one way; the other way may make it narrower.
     pub fn new(middle: Interval, range: Interval, gradient: [Interval; N]) -> Self {
         let half = Interval { low: -0.5, high: 0.5 };
@@ -55,24 +49,6 @@ impl<const N: usize> Slope<N> {
     pub fn times(self, x: f64) -> Self {
         let gradient = self.gradient.map(|slope| slope.times(x));
         Self { middle: self.middle.times(x), range: self.range.times(x), gradient }
-    }
-
-    /// The scalar product of two vectors.
-    pub fn dot(a: [Self; 3], b: [Self; 3]) -> Self {
-        a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-    }
-
-    /// The vector product.
-    pub fn cross(a: [Self; 3], b: [Self; 3]) -> [Self; 3] {
-        [0, 1, 2].map(|k| {
-            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-            a[i] * b[j] - a[j] * b[i]
-        })
-    }
-
-    /// The squared length of a vector.
-    pub fn square_of(a: [Self; 3]) -> Self {
-        a[0].squared() + a[1].squared() + a[2].squared()
     }
 }
 
@@ -129,7 +105,12 @@ mod tests {
         for k in 2..10 {
             let width = 0.5f64.powi(k);
             let x = parameter(1.0, 1.0 + width);
-            let value = (x.squared() + Slope::constant(1.0)).sqrt() / x - x * x;
+            let one = Slope {
+                middle: Interval::point(1.0),
+                range: Interval::point(1.0),
+                gradient: [Interval::point(0.0)],
+            };
+            let value = (x.squared() + one).sqrt() / x - x * x;
             for i in 0..=16 {
                 let y = f(1.0 + width * i as f64 / 16.0);
                 assert!(value.range.low <= y && y <= value.range.high);

@@ -8,8 +8,17 @@ use std::f64::consts::FRAC_1_SQRT_2 as HALF;
 /// Knots of the full circle in four quadratic quarters.
 pub const QUARTERS: [f64; 12] = [0., 0., 0., 1., 1., 2., 2., 3., 3., 4., 4., 4.];
 
-const TURN: [[f64; 2]; 9] =
-    [[1., 0.], [1., 1.], [0., 1.], [-1., 1.], [-1., 0.], [-1., -1.], [0., -1.], [1., -1.], [1., 0.]];
+const TURN: [[f64; 2]; 9] = [
+    [1., 0.],
+    [1., 1.],
+    [0., 1.],
+    [-1., 1.],
+    [-1., 0.],
+    [-1., -1.],
+    [0., -1.],
+    [1., -1.],
+    [1., 0.],
+];
 
 fn weight(i: usize) -> f64 {
     if i.is_multiple_of(2) { 1.0 } else { HALF }
