@@ -1422,8 +1422,9 @@ FPT_MUST_USE
 fpt_status fpt_surface_prepare(const struct fpt_surface *surface);
 
 /**
- * Bytes that the library holds for the surface: the copies of its inputs, and the search index once it is built. What the
- * function of a callback keeps for itself is not counted.
+ * Bytes that the library holds for the surface: the copies of its inputs, and the search index once it is built (with more than
+ * 131,072 patches: the parts of it that queries have visited). What the function of a callback keeps for itself is not
+ * counted.
  * @since 0.1
  */
 FPT_MUST_USE

@@ -53,6 +53,8 @@ pub mod batch;
 
 pub mod weights;
 
+pub mod operate;
+
 pub mod fit;
 
 pub mod elementary;
