@@ -14,6 +14,8 @@ mod polynomial;
 
 mod cell;
 
+mod constant;
+
 mod ranges;
 
 mod bend;

@@ -9,7 +9,7 @@ import pytest
 from shapes import ROOT, circle, cloud, cylinder, hill
 
 import footpoint
-from footpoint import _feet, _library, weights
+from footpoint import _feet, _library, fair, inspect, weights
 
 HEADER = re.sub(r"/\*.*?\*/", "", (ROOT / "include" / "footpoint.h").read_text(encoding="utf-8"), flags=re.S)
 SCALARS = {"size_t": ctypes.c_size_t, "double": ctypes.c_double, "uint32_t": ctypes.c_uint32, "int32_t": ctypes.c_int32,
@@ -58,7 +58,8 @@ def test_structs():
                                           (footpoint.Scope, "FPT_SCOPE_"), (footpoint.Kind, "FPT_MEMBER_"),
                                           (footpoint.Nature, "FPT_NATURE_"), (weights.State, "FPT_WISH_"),
                                           (weights.WeightFlag, "FPT_WEIGHT_"), (weights.ConstraintKind, "FPT_CONSTRAINT_"),
-                                          (weights.Unit, "FPT_UNIT_")])
+                                          (weights.Unit, "FPT_UNIT_"), (fair.Method, "FPT_FAIR_"), (inspect.Quantity, "FPT_QUANTITY_"),
+                                          (inspect.Pattern, "FPT_PATTERN_"), (inspect.Kind, "FPT_PLACE_")])
 def test_enums(enum: type[Enum], prefix):
     listed = {name: int(value) for name, value in re.findall(rf"^\s*{prefix}(\w+) = (\d+),", HEADER, re.M)}
     assert listed == {name: int(member) for name, member in enum.__members__.items()}
@@ -66,7 +67,8 @@ def test_enums(enum: type[Enum], prefix):
 
 def test_records():
     for struct, dtype in ((_library.FootPoint, _feet.FOOT), (_library.FootMember, _feet.MEMBER), (_library.WeightsPole, weights.POLE),
-                          (_library.WeightsOutcome, weights.OUTCOME)):
+                          (_library.WeightsOutcome, weights.OUTCOME), (_library.InspectTooth, inspect.TOOTH),
+                          (_library.InspectCurvatures, inspect.CURVATURES), (_library.InspectPlace, inspect.PLACE)):
         assert dtype.itemsize == ctypes.sizeof(struct)
         assert {name: dtype.fields[name][1] for name in dtype.names} == {name: getattr(struct, name).offset for name, _ in struct._fields_}
     assert _library.ABI_VERSION == int(re.search(r"#define FPT_ABI_VERSION (\d+)", HEADER)[1])
@@ -111,6 +113,10 @@ def test_every_function_is_reached(monkeypatch):
     weights.move_point(arch, 0.5, 1, 0.1), weights.through_point(arch, 1, [1, 1.5, 0]), weights.conic(arch.poles, [1, 1, 1])
     weights.of_rho(0.5), weights.of_eccentricity(arch.poles, 1), weights.normalise([1, 2]), weights.bound([1, 2], 1.5)
     weights.standard_form(arch), weights.positive_form(1, [0, 0, 1, 1], [[0, 0, 0, 1], [1, 0, 0, 1]])
+    fair.curve(arch, 0.1), fair.surface(hill(), 0.1), inspect.curvature_range(arch), inspect.curvature_range(hill(), budget=10)
+    inspect.comb(arch), inspect.curvatures(hill(), [[0.5, 0.5]]), inspect.monotone_pieces(arch), inspect.inflections(arch)
+    inspect.umbilics(hill(), budget=10), inspect.hausdorff(arch, curve), inspect.border(hill(), 0, hill(), 0)
+    inspect.picture(hill(), size=(8, 8))
     footpoint.version(), footpoint.abi_version()
     with pytest.raises(RuntimeError, match="FPT_INTERNAL"):
         raise _library.failure(_library.INTERNAL)

@@ -79,10 +79,13 @@ fn sum(a: [Polynomial; 3], factor: f64, b: &[Polynomial; 3]) -> [Polynomial; 3] 
 
 /// The fundamental forms of a patch as polynomials, each times a power of the weight.
 pub(super) struct Forms {
-    metric: [Polynomial; 3],
-    area: Polynomial,
-    second: [Polynomial; 3],
-    weight: Option<Polynomial>,
+    /// W^4 E, F, G.
+    pub metric: [Polynomial; 3],
+    /// W^6 D.
+    pub area: Polynomial,
+    /// W^4 l, m, q.
+    pub second: [Polynomial; 3],
+    pub weight: Option<Polynomial>,
     /// W^3 S_s x S_t.
     pub normal: [Polynomial; 3],
 }
@@ -228,9 +231,9 @@ impl Bending {
 
 /// The shape operator of a patch on a box, in an orthonormal frame: `[[a, b], [b, d]]`.
 pub(super) struct Shape {
-    a: Slope<2>,
-    b: Slope<2>,
-    d: Slope<2>,
+    pub a: Slope<2>,
+    pub b: Slope<2>,
+    pub d: Slope<2>,
 }
 
 /// A quantity on a box.

@@ -52,6 +52,9 @@ pub struct Continuity {
 /// Intervals at most.
 const BUDGET: u64 = 4_000;
 
+/// Intervals narrower than this share of a patch are not halved.
+const NARROWEST: f64 = 5e-4;
+
 /// Gap of the angle below which an interval is good enough, radians; that of the curvature as a share of what it is.
 const ACCURACY: f64 = 1e-3;
 
@@ -187,7 +190,7 @@ impl Pair<'_, '_> {
             self.ask(point, None).u
         });
         let mut feet = [ends[0].min(ends[1]), ends[0].max(ends[1])];
-        let mut margin = (feet[1] - feet[0]).max(1e-6 * (end - start));
+        let mut margin = (0.05 * (feet[1] - feet[0])).max(1e-6 * (end - start));
         for _ in 0..40 {
             let wide = [(feet[0] - margin).max(start), (feet[1] + margin).min(end)];
             let is_far = |pair: &mut Self, a: f64, b: f64| {
@@ -338,7 +341,7 @@ pub fn continuity(
         let bound = pair.bound(k, local, x);
         let is_good = bound.angle <= angles.lower + ACCURACY
             && bound.curvature <= curvatures.lower + 10.0 * ACCURACY * size;
-        let is_last = intervals >= BUDGET || local[1] - local[0] < 1e-3;
+        let is_last = intervals >= BUDGET || local[1] - local[0] < NARROWEST;
         if is_good || is_last {
             angles.upper = angles.upper.max(bound.angle);
             curvatures.upper = curvatures.upper.max(bound.curvature);

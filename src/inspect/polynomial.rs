@@ -56,15 +56,32 @@ impl Polynomial {
         Self { coefficients: out, degree, error: error * (1.0 + 16.0 * HALF_ULP) }
     }
 
-    /// `self + factor * other`, both of one degree.
-    pub fn plus(mut self, factor: f64, other: &Self) -> Self {
-        debug_assert_eq!(self.degree, other.degree, "polynomials of one degree are added");
-        for (x, y) in self.coefficients.iter_mut().zip(&other.coefficients) {
+    /// The same polynomial with at least these degrees.
+    fn elevated(self, degree: Bidegree) -> Self {
+        let more = Bidegree {
+            s: degree.s.saturating_sub(self.degree.s),
+            t: degree.t.saturating_sub(self.degree.t),
+        };
+        if more == (Bidegree { s: 0, t: 0 }) {
+            return self;
+        }
+        self.times(&Self::new(&vec![1.0; more.count()], more, 0.0))
+    }
+
+    /// `self + factor * other`.
+    pub fn plus(self, factor: f64, other: &Self) -> Self {
+        if self.degree != other.degree {
+            // Derivatives of constants keep their degree; everything else has the same one.
+            let other = other.clone().elevated(self.degree);
+            return self.elevated(other.degree).plus(factor, &other);
+        }
+        let mut sum = self;
+        for (x, y) in sum.coefficients.iter_mut().zip(&other.coefficients) {
             *x += factor * y;
         }
-        let sum = self.error + factor.abs() * other.error + 4.0 * HALF_ULP * self.size();
-        self.error = sum + 4.0 * HALF_ULP * factor.abs() * other.size();
-        self
+        let error = sum.error + factor.abs() * other.error + 4.0 * HALF_ULP * sum.size();
+        sum.error = error + 4.0 * HALF_ULP * factor.abs() * other.size();
+        sum
     }
 
     /// The scalar product of two vectors of polynomials.
