@@ -1,6 +1,7 @@
 //! Certified ranges of curvatures: closed forms, and dense sampling of all cases.
 
 #[path = "cases/mod.rs"]
+#[allow(dead_code, reason = "shapes only, no queries")]
 mod cases;
 mod revolved;
 mod shapes;

@@ -7,10 +7,7 @@ use super::{Faired, Method};
 use crate::bounds::Vector;
 use crate::curve::Curve;
 use crate::error::Error;
-use crate::knots::Side;
-
-/// Rounds in which the balls grow to what the proof leaves.
-const ROUNDS: usize = 4;
+use crate::knots::{Knots, Side};
 
 /// Poles up to which the proof is sharpened by inserted knots.
 const SHARPEN_UP_TO: usize = 400;
@@ -135,7 +132,7 @@ pub(super) fn wrapped(count: usize, degree: usize, same: impl Fn(usize, usize) -
 }
 
 /// Whether the knots of an unclamped direction repeat with the length of the domain.
-pub(super) fn repeats(knots: &crate::knots::Knots) -> bool {
+pub(super) fn repeats(knots: &Knots) -> bool {
     let (t, p, n) = (knots.values(), knots.degree(), knots.pole_count());
     let period = t[n] - t[p];
     (0..=2 * p).all(|i| (t[n - p + i] - t[i] - period).abs() <= 1e-12 * period.abs())
@@ -205,22 +202,23 @@ fn proven_deviation(curve: &Curve, new: &[Vector]) -> Result<f64, Error> {
     if plain == 0.0 || curve.poles().len() > SHARPEN_UP_TO {
         return Ok(plain);
     }
-    let mut difference = moved(curve, &differences(new, curve.poles()));
-    for _ in 0..2 {
-        let t = difference.knots().values();
-        let middles: Vec<f64> =
-            difference.knots().spans().map(|i| 0.5 * (t[i] + t[i + 1])).collect();
-        for u in middles {
-            if difference.knots().multiplicity(u) == 0 {
-                difference = difference.insert_knot(u, 1)?;
-            }
-        }
-    }
+    let difference = moved(curve, &differences(new, curve.poles()));
+    let difference = difference.refine(&quarters(difference.knots()))?;
     let zero = vec![[0.0; 3]; difference.poles().len()];
     let sharp = hull_deviation(difference.poles(), &zero);
     // Inserting rounds by some ulps of the differences, each insertion once.
     let rounding = 1e-12 * plain + size_rounding(curve);
     Ok(plain.min(sharp + rounding))
+}
+
+/// The places that cut every span in four, but for those that are knots because a span is that short.
+pub(super) fn quarters(knots: &Knots) -> Vec<f64> {
+    let t = knots.values();
+    let cut = |i: usize| [0.25, 0.5, 0.75].map(|x| t[i] + x * (t[i + 1] - t[i]));
+    let mut places: Vec<f64> = knots.spans().flat_map(cut).collect();
+    places.dedup();
+    places.retain(|&u| knots.multiplicity(u) == 0);
+    places
 }
 
 /// Rounding of differences of poles.
@@ -271,29 +269,14 @@ pub fn fair_curve(
     }
     let mut problem =
         Problem { energy, distance, unknowns, count, kept, radius, allowed: &allowed, poll };
-    let mut converged = false;
-    let mut deviation = 0.0;
-    for _ in 0..ROUNDS {
-        let before = (state.poles.clone(), state.energies.len());
-        converged = match fairing.method {
-            Method::Energy => problem.run(&mut state, fairing.steps)?,
-            Method::Local => problem.run_local(&mut state, fairing.steps)?,
-            Method::KnotRemoval => problem.run_knots(&mut state, &chosen, fairing.steps)?,
-        };
-        let proven = proven_deviation(curve, &state.poles)?;
-        if proven > fairing.deviation {
-            state.poles = before.0;
-            state.energies.truncate(before.1);
-            break;
-        }
-        deviation = proven;
-        // The hull is wider than the motion: what is left may be used.
-        let most = hull_deviation(&state.poles, curve.poles());
-        if most < 0.9 * problem.radius || proven > 0.97 * fairing.deviation || proven == 0.0 {
-            break;
-        }
-        problem.radius *= (fairing.deviation / proven).min(2.0) * (1.0 - 1e-9);
-    }
+    let mut run = |problem: &mut Problem, state: &mut State| match fairing.method {
+        Method::Energy => problem.run(state, fairing.steps),
+        Method::Local => problem.run_local(state, fairing.steps),
+        Method::KnotRemoval => problem.run_knots(state, &chosen, fairing.steps),
+    };
+    let proven = |poles: &[Vector]| proven_deviation(curve, poles);
+    let (converged, deviation) =
+        problem.in_rounds(&mut state, fairing.deviation, &mut run, &proven)?;
     let shape = moved(curve, &state.poles);
     Ok(Faired { shape, energies: state.energies, deviation, converged })
 }

@@ -11,7 +11,7 @@
 
 use super::LEAST_GAIN;
 use super::envelope::Envelope;
-use super::rows::{Cell, Functional};
+use super::rows::{Cell, Functional, hull_deviation};
 use crate::bounds::{Vector, add, dot, norm, scaled, sub};
 use crate::error::Error;
 
@@ -23,6 +23,9 @@ const UNIFORM_TRIES: usize = 14;
 
 /// Steps in a row that may gain nothing before the search ends: multipliers take some to find their poles.
 const PATIENCE: usize = 10;
+
+/// Rounds in which the balls grow to what the proof leaves.
+const ROUNDS: usize = 4;
 
 /// What is to be made small, and what is allowed.
 pub struct Problem<'a> {
@@ -73,6 +76,38 @@ impl Problem<'_> {
     /// Energy and cost of moving.
     pub fn value(&self, poles: &[Vector], old: &[Vector]) -> f64 {
         self.energy.value(poles) + self.distance.value(&differences(poles, old))
+    }
+
+    /// Calls `run`, and again with larger balls while `proven`, the deviation that is proven, leaves room: the balls alone
+    /// bound it, but more than it is. Gives what the last run gave, and the deviation.
+    ///
+    /// # Errors
+    /// Those of `run` and `proven`.
+    pub fn in_rounds(
+        &mut self,
+        state: &mut State,
+        deviation: f64,
+        run: &mut dyn FnMut(&mut Self, &mut State) -> Result<bool, Error>,
+        proven: &dyn Fn(&[Vector]) -> Result<f64, Error>,
+    ) -> Result<(bool, f64), Error> {
+        let mut best = (false, 0.0);
+        for _ in 0..ROUNDS {
+            let before = (state.poles.clone(), state.energies.len());
+            let converged = run(self, state)?;
+            let found = proven(&state.poles)?;
+            if found > deviation {
+                state.poles = before.0;
+                state.energies.truncate(before.1);
+                break;
+            }
+            best = (converged, found);
+            let most = hull_deviation(&state.poles, &state.old);
+            if most < 0.9 * self.radius || found > 0.97 * deviation || found == 0.0 {
+                break;
+            }
+            self.radius *= (deviation / found).min(2.0) * (1.0 - 1e-9);
+        }
+        Ok(best)
     }
 
     /// Runs at most `steps` steps; true when the last ones gained nothing.

@@ -1,16 +1,20 @@
 //! Fairing of surfaces.
 
-use super::curve::{check_deviation, check_number, repeats, wrapped};
+use super::curve::{check_deviation, check_number, quarters, repeats, wrapped};
 use super::rows::{Cell, Functional, hull_deviation, knot_jumps, surface_energy};
-use super::solve::{Problem, State};
+use super::solve::{Problem, State, differences};
 use super::{Faired, Method};
 use crate::bounds::Vector;
 use crate::error::Error;
 use crate::knots::Knots;
+use crate::operate::Direction;
 use crate::surface::Surface;
 
 /// Most entries of the matrix: 2 GB.
 const MOST_ENTRIES: usize = 1 << 28;
+
+/// Poles up to which the proof is sharpened by inserted knots.
+const SHARPEN_UP_TO: usize = 40_000;
 
 /// What a surface is faired for, and what must stay.
 #[derive(Clone, Debug, PartialEq)]
@@ -170,6 +174,25 @@ fn knot_lines(surface: &Surface) -> (Functional, Vec<Vec<usize>>) {
     (Functional(cells), lines)
 }
 
+/// How far no point of the surface with other poles has moved, proven: the hull of the difference after each span has been
+/// cut in four.
+fn proven_deviation(surface: &Surface, new: &[Vector]) -> Result<f64, Error> {
+    let old = surface.poles();
+    let plain = hull_deviation(new, old);
+    let rounding = f64::EPSILON * old.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
+    if plain == 0.0 || old.len() > SHARPEN_UP_TO {
+        return Ok(plain + rounding);
+    }
+    let (ku, kv) = (surface.knots_u(), surface.knots_v());
+    let weights = surface.weights().map(Into::into);
+    let poles = differences(new, old).into_boxed_slice();
+    let difference = Surface::from_parts(ku.clone(), kv.clone(), poles, weights);
+    let difference = difference.refine(Direction::U, &quarters(ku))?;
+    let difference = difference.refine(Direction::V, &quarters(kv))?;
+    let sharp = hull_deviation(difference.poles(), &vec![[0.0; 3]; difference.poles().len()]);
+    Ok(plain.min(sharp + 1e-12 * plain) + rounding)
+}
+
 /// A fairer surface on the same knots and weights, within the deviation.
 ///
 /// Cost: a step factors a matrix with one unknown a pole whose band is the degree times the smaller number of poles.
@@ -209,12 +232,14 @@ pub fn fair_surface(
     let kept = Vec::new();
     let mut problem =
         Problem { energy, distance, unknowns, count, kept, radius, allowed: &allowed, poll };
-    let converged = match fairing.method {
-        Method::Energy => problem.run(&mut state, fairing.steps)?,
-        Method::Local => problem.run_local(&mut state, fairing.steps)?,
-        Method::KnotRemoval => problem.run_knots(&mut state, &lines, fairing.steps)?,
+    let mut run = |problem: &mut Problem, state: &mut State| match fairing.method {
+        Method::Energy => problem.run(state, fairing.steps),
+        Method::Local => problem.run_local(state, fairing.steps),
+        Method::KnotRemoval => problem.run_knots(state, &lines, fairing.steps),
     };
-    let deviation = hull_deviation(&state.poles, old) + f64::EPSILON * most;
+    let proven = |poles: &[Vector]| proven_deviation(surface, poles);
+    let (converged, deviation) =
+        problem.in_rounds(&mut state, fairing.deviation, &mut run, &proven)?;
     let weights = surface.weights().map(Into::into);
     let shape =
         Surface::from_parts(ku.clone(), kv.clone(), state.poles.into_boxed_slice(), weights);

@@ -90,6 +90,14 @@ impl Forms {
     pub fn as_constant(&self, work: &mut Vec<f64>) -> Option<Shape> {
         let [e, f, _] = &self.metric;
         let [l, m, q] = &self.second;
+        let longest = |k: fn(&Polynomial) -> usize| {
+            let weight = self.weight.as_ref().map_or(0, k);
+            3 * k(e).max(k(f)) + k(q).max(k(m)).max(k(l)) + k(&self.area) + weight + 1
+        };
+        let (s, t) = (longest(|f| f.degree.s), longest(|f| f.degree.t));
+        if s.max(t) > MAX_TRIPLE || s * t > MOST {
+            return None;
+        }
         let sheared = e.times(m).plus(-1.0, &f.times(l));
         let across = e.times(&e.times(q)).plus(-2.0, &e.times(&f.times(m)));
         let across = across.plus(1.0, &f.times(&f.times(l)));
@@ -103,5 +111,36 @@ impl Forms {
             b: product(&sheared, &with([-2, -2, 4]), work)?,
             d: product(&across, &with([-3, -2, 2]), work)?,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bezier::Bidegree;
+    use crate::inspect::cell::Piece;
+
+    #[test]
+    fn a_patch_of_a_torus_has_a_constant_curvature() {
+        // A quarter of the tube (radius 1.25) over a quarter of the ring (radius 3).
+        let half = 0.5f64.sqrt();
+        let turn = [([1.0, 0.0], 1.0), ([1.0, 1.0], half), ([0.0, 1.0], 1.0)];
+        let mut poles = vec![0.0; 36];
+        for (i, (u, wu)) in turn.iter().enumerate() {
+            for (j, (v, wv)) in turn.iter().enumerate() {
+                let (ring, height, w) = (3.0 + 1.25 * v[0], 1.25 * v[1], wu * wv);
+                let pole = [ring * u[0] * w, ring * u[1] * w, height * w, w];
+                (0..4).for_each(|c| poles[9 * c + 3 * i + j] = pole[c]);
+            }
+        }
+        let degree = Bidegree { s: 2, t: 2 };
+        let piece = Piece { poles: &poles, degree, rational: true, error: 1e-15, steps: 1e-15 };
+        let mut work = Vec::new();
+        let forms = Forms::new(&piece);
+        let shape = forms.as_constant(&mut work).expect("short products");
+        let d = shape.d.range;
+        assert!(d.low <= 0.8 && 0.8 <= d.high || d.low <= -0.8 && -0.8 <= d.high, "{d:?}");
+        assert!(d.high - d.low < 1e-6, "{:?} {:?} {:?}", shape.a, shape.b, shape.d);
+        assert!(shape.b.range.magnitude() < 1e-6, "{:?}", shape.b);
     }
 }

@@ -90,6 +90,9 @@ const MOST_LINES: usize = 1200;
 /// Grid lines in either direction at least.
 const LEAST_LINES: usize = 240;
 
+/// Between two lamps.
+const NO_LAMP: f64 = 0.75;
+
 const BACKGROUND: [f64; 3] = [1.0; 3];
 
 #[derive(Clone, Copy)]
@@ -408,15 +411,17 @@ impl Paint {
         if size > 1e-6 { scaled(across, 1.0 / size) } else { [1.0, 0.0, 0.0] }
     }
 
-    /// Number of the lamp that the line from `place` along `direction` meets in the plane of the lamps.
+    /// Number of the lamp that the line from `place` along `direction` meets in the plane of the lamps; there are no lamps
+    /// beyond the width of the picture and below.
     fn passes(&self, place: Vector, direction: Vector, across: Vector) -> f64 {
         let height = 2.0 * self.reach - dot(place, self.light);
         let rise = dot(direction, self.light);
-        if rise.abs() < 1e-9 {
-            return 0.25;
+        if rise < 1e-3 {
+            return NO_LAMP;
         }
         let hit = add(place, scaled(direction, height / rise));
-        dot(hit, across) / (2.0 * self.reach) * self.bands
+        let lamp = dot(hit, across) / (2.0 * self.reach) * self.bands;
+        if lamp.abs() > self.bands { NO_LAMP } else { lamp }
     }
 
     /// Blue, white, red; white is zero when the range holds it.

@@ -390,10 +390,12 @@ pub fn surface_range(
     let mut evaluate = |k: usize, s: [f64; 2], t: [f64; 2]| {
         let forms = forms[k].get_or_insert_with(|| Forms::new(&patch_piece(index, k)));
         let plain = known(&forms.on(s, t, &mut work), quantity);
+        if std::env::var_os("FP_DEBUG").is_some() && [s, t] == [[0.0, 1.0]; 2] { eprintln!("DBG {k} whole plain {:?}", plain.middle); }
         if [s, t] != [[0.0, 1.0]; 2] || !is_nearly_constant(forms, quantity, relative, &mut work) {
             return plain;
         }
         let sharp = forms.as_constant(&mut work).map(|shape| known(&shape, quantity));
+        if std::env::var_os("FP_DEBUG").is_some() { eprintln!("DBG {k} plain {:?} sharp {:?}", plain.range, sharp.map(|s| s.range)); }
         sharp.map_or(plain, |sharp| Known { range: plain.range.and(sharp.range), ..plain })
     };
     let across = |area: &Area| {
