@@ -21,7 +21,8 @@
 use super::interval::Interval;
 use super::polynomial::Polynomial;
 use super::slope::Slope;
-use crate::bezier::{Bidegree, MAX_TRIPLE};
+use crate::bezier::{Bidegree, MAX_TRIPLE, cut_2d};
+use crate::bounds::HALF_ULP;
 use crate::error::Error;
 
 /// A Bezier piece: homogeneous poles component by component, of which coordinates are off by at most `error` times the
@@ -50,6 +51,34 @@ pub(super) fn check_degree(degree: Bidegree, rational: bool) -> Result<(), Error
 }
 
 impl Piece<'_> {
+    /// The part on a box as a piece of its own, seen from a pole in its middle, its greatest weight in [1, 2); `net` holds it.
+    pub fn part<'a>(&self, s: [f64; 2], t: [f64; 2], net: &'a mut Vec<f64>) -> Piece<'a> {
+        let count = self.degree.count();
+        net.clear();
+        net.extend_from_slice(self.poles);
+        net.chunks_exact_mut(count).for_each(|part| cut_2d(part, self.degree, s, t));
+        let ones = vec![1.0; count];
+        let (coordinates, weights) = net.split_at_mut(3 * count);
+        let heaviest = weights.iter().fold(1e-200f64, |m, w| m.max(*w));
+        let exponent = if self.rational { heaviest.log2().floor() as i32 } else { 0 };
+        let factor = 2f64.powi(-exponent);
+        weights.iter_mut().for_each(|w| *w *= factor);
+        let weights: &[f64] = if self.rational { weights } else { &ones };
+        let mut size = 0.0f64;
+        for part in coordinates.chunks_exact_mut(count) {
+            part.iter_mut().for_each(|x| *x *= factor);
+            let centre = part[count / 2] / weights[count / 2];
+            for (x, w) in part.iter_mut().zip(weights) {
+                size = size.max(x.abs() + (w * centre).abs());
+                *x -= w * centre;
+            }
+        }
+        // The weights' error moves what they are multiplied with.
+        let moved = if self.rational { self.steps * size } else { 0.0 };
+        let error = self.error + moved + 8.0 * HALF_ULP * size;
+        Piece { poles: net, degree: self.degree, rational: self.rational, error, steps: self.steps }
+    }
+
     /// x, y, z and w; the weight of a polynomial piece is none.
     fn homogeneous(&self) -> ([Polynomial; 3], Option<Polynomial>) {
         let count = self.degree.count();

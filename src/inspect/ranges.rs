@@ -352,18 +352,28 @@ fn known(shape: &Shape, quantity: Quantity) -> Known {
     }
 }
 
-/// Whether the quantity is the same at the corners and in the middle of a patch, within the allowed gap.
+/// Whether a box is about a quarter of its patch: small enough for weights to be alike, large enough to be worth long
+/// products.
+fn is_quarter(s: [f64; 2], t: [f64; 2]) -> bool {
+    let widths = [s[1] - s[0], t[1] - t[0]];
+    widths[0].max(widths[1]) == 0.5 && widths[0].min(widths[1]) >= 0.125
+}
+
+/// Whether the quantity is the same in the middle of a box and around it, within the allowed gap.
 fn is_nearly_constant(
     forms: &Forms,
+    [s, t]: [[f64; 2]; 2],
     quantity: Quantity,
     relative: f64,
     work: &mut Vec<f64>,
 ) -> bool {
-    let mut at = |s: f64, t: f64| known(&forms.on([s; 2], [t; 2], work), quantity).middle.middle();
+    let place = |range: [f64; 2], x: f64| [range[0] + x * (range[1] - range[0]); 2];
+    let mut at =
+        |x: f64, y: f64| known(&forms.on(place(s, x), place(t, y), work), quantity).middle.middle();
     let middle = at(0.5, 0.5);
     let allowed = relative * middle.abs().max(FLOOR);
     let places = [[0.1, 0.2], [0.9, 0.8], [0.2, 0.9], [0.8, 0.1]];
-    places.into_iter().all(|[s, t]| (at(s, t) - middle).abs() <= allowed)
+    places.into_iter().all(|[x, y]| (at(x, y) - middle).abs() <= allowed)
 }
 
 /// The range of a curvature over a surface or a part of it.
@@ -386,16 +396,15 @@ pub fn surface_range(
     check_degree(index.degree, index.rational)?;
     let mut forms: Vec<Option<Forms>> = (0..index.patches.len()).map(|_| None).collect();
     let mut work = Vec::new();
-    let relative = options.relative;
+    let (relative, mut net) = (options.relative, Vec::new());
     let mut evaluate = |k: usize, s: [f64; 2], t: [f64; 2]| {
         let forms = forms[k].get_or_insert_with(|| Forms::new(&patch_piece(index, k)));
         let plain = known(&forms.on(s, t, &mut work), quantity);
-        if std::env::var_os("FP_DEBUG").is_some() && [s, t] == [[0.0, 1.0]; 2] { eprintln!("DBG {k} whole plain {:?}", plain.middle); }
-        if [s, t] != [[0.0, 1.0]; 2] || !is_nearly_constant(forms, quantity, relative, &mut work) {
+        if !is_quarter(s, t) || !is_nearly_constant(forms, [s, t], quantity, relative, &mut work) {
             return plain;
         }
-        let sharp = forms.as_constant(&mut work).map(|shape| known(&shape, quantity));
-        if std::env::var_os("FP_DEBUG").is_some() { eprintln!("DBG {k} plain {:?} sharp {:?}", plain.range, sharp.map(|s| s.range)); }
+        let part = patch_piece(index, k).part(s, t, &mut net);
+        let sharp = Forms::new(&part).as_constant(&mut work).map(|shape| known(&shape, quantity));
         sharp.map_or(plain, |sharp| Known { range: plain.range.and(sharp.range), ..plain })
     };
     let across = |area: &Area| {
