@@ -239,12 +239,11 @@ fn push_piece(pieces: &mut Vec<Monotone>, curve: &Curve, u: [f64; 2], trend: Tre
     let end = tooth(curve, u[1], Side::Below).curvature;
     // A very short flat interval is a multiple zero: an extremum or a saddle, not a piece.
     let (first, last) = curve.domain();
-    if trend == Trend::Constant && u[1] - u[0] < 1e-4 * (last - first) {
-        if let Some(piece) = pieces.last_mut() {
-            piece.u[1] = u[1];
-            piece.curvature[1] = end;
-            return;
-        }
+    let is_short = u[1] - u[0] < 1e-4 * (last - first);
+    if let (Trend::Constant, true, Some(piece)) = (trend, is_short, pieces.last_mut()) {
+        piece.u[1] = u[1];
+        piece.curvature[1] = end;
+        return;
     }
     if let Some(piece) = pieces.last_mut() {
         let jump = (piece.curvature[1] - start).abs();
