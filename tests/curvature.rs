@@ -134,8 +134,13 @@ fn bounds_hold_dense_samples_of_every_case() {
     for folder in cases::folders() {
         let case = cases::read(&folder);
         let Shape::Surface(indexed) = &case.shape else { continue };
-        indexed.prepare(&mut || false).unwrap();
         let long = std::env::var_os("FOOTPOINT_LIST").is_some();
+        // Products of high degrees and thousands of patches take too long for every day.
+        let degree = indexed.surface().knots_u().degree().max(indexed.surface().knots_v().degree());
+        if !long && (degree > 5 || indexed.surface().poles().len() > 1_000) {
+            continue;
+        }
+        indexed.prepare(&mut || false).unwrap();
         let options =
             RangeOptions { budget: if long { 20_000 } else { 300 }, ..RangeOptions::default() };
         let start = std::time::Instant::now();
