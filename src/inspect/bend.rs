@@ -113,7 +113,7 @@ pub struct Inflection {
     pub u: f64,
     /// The interval that holds it.
     pub interval: [f64; 2],
-    /// Whether it is proven that the bend changes its side there: one zero, or two sides at a knot.
+    /// Whether the bend has different sides just before and just behind (evaluated).
     pub changes: bool,
 }
 
@@ -256,7 +256,7 @@ fn push_piece(pieces: &mut Vec<Monotone>, curve: &Curve, u: [f64; 2], trend: Tre
     pieces.push(Monotone { u, trend, curvature: [start, end] });
 }
 
-/// The places where the curve, seen along `normal`, changes the side to which it bends or is straight.
+/// The places where the curve, seen along `normal`, changes the side to which it bends or is straight: none is missing.
 ///
 /// # Errors
 /// The degree is too high; memory that could not be had.
@@ -280,6 +280,19 @@ pub fn inflections(curve: &IndexedCurve, normal: Vector) -> Result<Vec<Inflectio
             found.push(Inflection { u, interval: [u, u], changes: true });
         }
         before = push_zeros(&side, size, span, &mut found);
+    }
+    // At a knot both segments have their say.
+    let (start, end) = curve.curve().domain();
+    for place in found.iter_mut().filter(|place| place.changes) {
+        let bend = |u: f64, side: Side| {
+            let mut d = [[0.0; 3]; 3];
+            curve.curve().derivatives_on(u.clamp(start, end), side, 2, &mut d);
+            dot(cross(d[1], d[2]), normal)
+        };
+        let step = 2e-6 * (end - start);
+        let [low, high] = [place.interval[0] - step, place.interval[1] + step];
+        let inside = low > start && high < end;
+        place.changes = inside && bend(low, Side::Below) * bend(high, Side::Above) < 0.0;
     }
     Ok(found)
 }
