@@ -599,6 +599,36 @@ void surfaces_meet_in_branches() {
     CHECK(part.summary().is_exhausted == 1 && part.undecided(0)[1] > 0);
 }
 
+void fairing_and_inspection_are_those_of_the_c_api() {
+    const double half = std::sqrt(0.5);
+    const surface quarter(2, 1, {0, 0, 0, 1, 1, 1}, {0, 0, 1, 1}, {2, 0, 0, 2, 0, 1, 2, 2, 0, 2, 2, 1, 0, 2, 0, 0, 2, 1},
+                          {1, 1, half, half, 1, 1});
+    const fpt_inspect_range range = footpoint::curvature_range(quarter);
+    CHECK(range.proven == 1 && range.least[0] <= 0.5 && range.greatest[1] >= 0.5);
+    CHECK(footpoint::curvatures(quarter, {0.3, 0.5})[0].is_singular == 0 && footpoint::umbilics(quarter).empty());
+    const footpoint::hausdorff_distance apart = footpoint::hausdorff(quarter, quarter);
+    CHECK(apart.forward.lower == 0 && apart.backward.proven == 1);
+    CHECK(footpoint::border(quarter, 2, quarter, 2).gap.upper < 1e-4);
+    footpoint::picture_options small;
+    small.width = 40, small.height = 30;
+    CHECK(footpoint::picture(quarter, small).size() == 3600);
+    const curve wave(3, {0, 0, 0, 0, 1, 2, 3, 3, 3, 3}, {0, 0, 0, 1, 1, 0, 2, -1, 0, 3, 1, 0, 4, -1, 0, 5, 0, 0});
+    CHECK(footpoint::curvature_range(wave).proven == 1 && footpoint::comb(wave, {0, 1.5, 3}).size() == 3);
+    CHECK(footpoint::monotone_pieces(wave).size() > 2 && footpoint::inflections(wave).size() > 1);
+    CHECK(footpoint::inflections(wave, {0, 0, 1}).size() == footpoint::inflections(wave).size());
+    footpoint::fair_options options(0.5);
+    const footpoint::fair_report report(wave, options);
+    const std::vector<double> energies = report.energies();
+    CHECK(report.summary().deviation <= 0.5 && energies.back() < energies.front());
+    CHECK(report.as_curve().poles() != wave.poles());
+    footpoint::fair_report flat(quarter, options);
+    CHECK(flat.as_surface().weights() == quarter.weights());
+    CHECK(flat.get() != nullptr);
+    fpt_fair_report_free(flat.release());
+    options.deviation = 0;
+    check_thrown([&] { footpoint::fair_report(wave, options); }, FPT_INVALID_ARGUMENT, "deviation");
+}
+
 void versions_agree() {
     CHECK(footpoint::version() == FPT_VERSION && footpoint::abi_version() == FPT_ABI_VERSION);
 }
@@ -626,6 +656,7 @@ int main() {
     RUN(fits_and_constructions_are_those_of_the_c_api);
     RUN(pcurves_and_faces_are_those_of_the_c_api);
     RUN(surfaces_meet_in_branches);
+    RUN(fairing_and_inspection_are_those_of_the_c_api);
     RUN(versions_agree);
     return check_report("wrapper");
 }

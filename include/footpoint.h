@@ -719,6 +719,136 @@ typedef enum fpt_contact_kind {
 } fpt_contact_kind;
 
 /**
+ * How poles are moved, for fpt_fair_options.method.
+ */
+typedef enum fpt_fair_method {
+    /**
+     * All poles at once, to the least energy that the constraints allow.
+     */
+    FPT_FAIR_ENERGY = 0,
+    /**
+     * One pole at a time, where the energy falls most (Eck, Hadenfeld).
+     */
+    FPT_FAIR_LOCAL = 1,
+    /**
+     * One knot (line) at a time: what removing it would do to the poles (Farin, Sapidis). The energy is the sum of the squared jumps of
+     * the first derivative that is not continuous. Polynomial surfaces only, curves of any kind.
+     */
+    FPT_FAIR_KNOT_REMOVAL = 2,
+} fpt_fair_method;
+
+/**
+ * A quantity of curvature, for fpt_inspect_surface_range.
+ */
+typedef enum fpt_inspect_quantity {
+    /**
+     * The greater principal curvature, 1 / length. Positive: the surface bends towards S_u x S_v.
+     */
+    FPT_QUANTITY_GREATER = 0,
+    /**
+     * The less principal curvature, 1 / length.
+     */
+    FPT_QUANTITY_LESS = 1,
+    /**
+     * Half their sum, 1 / length.
+     */
+    FPT_QUANTITY_MEAN = 2,
+    /**
+     * Their product, 1 / area.
+     */
+    FPT_QUANTITY_GAUSSIAN = 3,
+    /**
+     * The greatest absolute normal curvature, 1 / length: its reciprocal is the least radius of curvature.
+     */
+    FPT_QUANTITY_SHARPEST = 4,
+} fpt_inspect_quantity;
+
+/**
+ * What a picture shows, for fpt_inspect_picture_options.pattern.
+ */
+typedef enum fpt_inspect_pattern {
+    /**
+     * Plain shading.
+     */
+    FPT_PATTERN_SHADED = 0,
+    /**
+     * Stripes of a surrounding striped room, seen in the surface.
+     */
+    FPT_PATTERN_ZEBRA = 1,
+    /**
+     * Bands of equal angle between normal and light.
+     */
+    FPT_PATTERN_ISOPHOTES = 2,
+    /**
+     * Bands where the reflection of the view meets parallel lamps.
+     */
+    FPT_PATTERN_REFLECTION_LINES = 3,
+    /**
+     * Bands where the normal line passes parallel lamps.
+     */
+    FPT_PATTERN_HIGHLIGHT_LINES = 4,
+    /**
+     * Colours of the greater principal curvature.
+     */
+    FPT_PATTERN_GREATER = 5,
+    /**
+     * Colours of the less principal curvature.
+     */
+    FPT_PATTERN_LESS = 6,
+    /**
+     * Colours of the mean curvature.
+     */
+    FPT_PATTERN_MEAN = 7,
+    /**
+     * Colours of the Gaussian curvature.
+     */
+    FPT_PATTERN_GAUSSIAN = 8,
+} fpt_inspect_pattern;
+
+/**
+ * What a place of a set is, for fpt_inspect_place.kind.
+ */
+typedef enum fpt_inspect_kind {
+    /**
+     * The curvature grows along the piece.
+     */
+    FPT_PLACE_RISING = 0,
+    /**
+     * It falls.
+     */
+    FPT_PLACE_FALLING = 1,
+    /**
+     * It is the same up to rounding.
+     */
+    FPT_PLACE_CONSTANT = 2,
+    /**
+     * Neither could be shown.
+     */
+    FPT_PLACE_UNKNOWN = 3,
+    /**
+     * The curve changes the side to which it bends.
+     */
+    FPT_PLACE_INFLECTION = 4,
+    /**
+     * The curve is straight there, and whether it changes sides is not shown.
+     */
+    FPT_PLACE_STRAIGHT = 5,
+    /**
+     * A small box outside of which, and of the others, principal curvatures differ.
+     */
+    FPT_PLACE_UMBILIC = 6,
+    /**
+     * A large such box: a line or an area of umbilics, or the budget ran out.
+     */
+    FPT_PLACE_UMBILIC_AREA = 7,
+} fpt_inspect_kind;
+
+/**
+ * All numbers from `low` to `high`.
+ */
+typedef struct Interval Interval;
+
+/**
  * A curve. Immutable: any number of threads may use one at a time. The search index is built on first
  * use, by one thread while the others wait. Made by fpt_curve_new or fpt_curve_from_callback, owned by the
  * caller, released by fpt_curve_free. A curve from a callback has no degree, knots, poles and weights:
@@ -733,10 +863,21 @@ typedef struct fpt_curve fpt_curve;
 typedef struct fpt_face fpt_face;
 
 /**
+ * A faired shape and what is known of it. Immutable, owned by the caller, released by fpt_fair_report_free; it does not refer to the
+ * shape that it came from.
+ */
+typedef struct fpt_fair_report fpt_fair_report;
+
+/**
  * A set of feet. Immutable: any number of threads may read one at a time. Owned by the caller, released by
  * fpt_foot_set_free; it does not refer to the shape that it came from.
  */
 typedef struct fpt_foot_set fpt_foot_set;
+
+/**
+ * Places of one kind, in order. Immutable, owned by the caller, released by fpt_inspect_set_free.
+ */
+typedef struct fpt_inspect_set fpt_inspect_set;
 
 /**
  * The pcurves of an edge, in its order. Immutable. Owned by the caller, released by fpt_pcurve_set_free; it does not refer to
@@ -2138,6 +2279,409 @@ typedef struct fpt_intersection_contact {
      */
     uint32_t reserved;
 } fpt_intersection_contact;
+
+/**
+ * How far an inspection goes. Fill it with fpt_inspect_options_init. Grows at the end only.
+ */
+typedef struct fpt_inspect_options {
+    /**
+     * sizeof(fpt_inspect_options), set by fpt_inspect_options_init.
+     */
+    size_t struct_size;
+    /**
+     * Ranges and umbilics: only the part u0,u1,v0,v1; all 0: the whole domain. On a curve only u0,u1 count.
+     */
+    double domain[4];
+    /**
+     * Ranges: allowed gap between the two bounds of an extreme, as a share of its size or of what a sphere as large as the shape
+     * has; above 0, at most 1. Default 1e-3.
+     */
+    double relative;
+    /**
+     * Distances: allowed gap between the bounds, length; 0: 1e-3 of the diagonal of the first shape's box.
+     */
+    double accuracy;
+    /**
+     * Boxes at most; 0: the default, 200000 (ranges, umbilics), 50000 (distances).
+     */
+    uint64_t budget;
+    /**
+     * Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED. NULL: never.
+     */
+    int (*should_stop)(void *user);
+    /**
+     * Handed to should_stop as it is.
+     */
+    void *user;
+} fpt_inspect_options;
+
+/**
+ * How a picture is made. Fill it with fpt_inspect_picture_options_init. Grows at the end only.
+ */
+typedef struct fpt_inspect_picture_options {
+    /**
+     * sizeof(fpt_inspect_picture_options), set by fpt_inspect_picture_options_init.
+     */
+    size_t struct_size;
+    /**
+     * A value of fpt_inspect_pattern.
+     */
+    uint32_t pattern;
+    /**
+     * Bands over the range of what they show, 1 to 1000. Default 16.
+     */
+    uint32_t bands;
+    /**
+     * Pixels in a row, 1 to 8192. Default 640.
+     */
+    uint32_t width;
+    /**
+     * Rows, 1 to 8192. Default 480.
+     */
+    uint32_t height;
+    /**
+     * Direction from the surface towards the eye; not 0. The view is orthographic and holds the whole surface.
+     */
+    double eye[3];
+    /**
+     * What is up in the picture; not 0, not the direction of the eye.
+     */
+    double up[3];
+    /**
+     * Direction from the surface towards the light, and towards the plane of the lamps; not 0.
+     */
+    double light[3];
+    /**
+     * Values of the ends of the colours of curvature; both 0: the range of what is seen, but for a hundredth at either end.
+     */
+    double range[2];
+} fpt_inspect_picture_options;
+
+/**
+ * What a shape is faired for, and what must stay. Fill it with fpt_fair_options_init, then set the deviation. Grows at the end only.
+ */
+typedef struct fpt_fair_options {
+    /**
+     * sizeof(fpt_fair_options), set by fpt_fair_options_init.
+     */
+    size_t struct_size;
+    /**
+     * Length, positive: how far a point may move from the point of the same parameters. Must be set.
+     */
+    double deviation;
+    /**
+     * Weight of the integral of the squared second derivative (curves), of the thin plate |Suu|^2 + 2 |Suv|^2 + |Svv|^2
+     * (surfaces); finite, >= 0. Default 1.
+     */
+    double strain;
+    /**
+     * Weight of the integral of the squared third derivatives; finite, >= 0. Default 0.
+     */
+    double jerk;
+    /**
+     * Weight of the integral of the squared distance from the shape as it was; finite, >= 0. Default 0.
+     */
+    double distance;
+    /**
+     * A value of fpt_fair_method.
+     */
+    uint32_t method;
+    /**
+     * Curves: 1: derivatives and integrals by the arc length of the curve as it was, 0: by the parameter.
+     */
+    uint32_t by_length;
+    /**
+     * Curves: what is kept at the start and at the end. 0 nothing, 1 the point, 2 the first derivative too, 3 the second too. Default 2.
+     */
+    uint32_t ends[2];
+    /**
+     * Surfaces: what is kept along u0, u1, v0, v1. 0 nothing, 1 the border (G0), 2 first cross derivatives too (G1), 3 second
+     * ones too (G2). Default 2. The direction must be clamped there, unless 0 or periodic.
+     */
+    uint32_t borders[4];
+    /**
+     * Curves: `fixed_count` numbers of poles that stay. NULL: none.
+     */
+    const size_t *fixed;
+    /**
+     * See fixed.
+     */
+    size_t fixed_count;
+    /**
+     * Curves: `through_count` parameters whose points stay. NULL: none.
+     */
+    const double *through;
+    /**
+     * See through.
+     */
+    size_t through_count;
+    /**
+     * Curves: `knot_count` knots that FPT_FAIR_KNOT_REMOVAL may fair. NULL: all inner ones.
+     */
+    const double *knots;
+    /**
+     * See knots.
+     */
+    size_t knot_count;
+    /**
+     * Curves: least and greatest arc length, which the curve has already. Both 0: any.
+     */
+    double length[2];
+    /**
+     * Surfaces: only the part u0,u1,v0,v1 changes. All 0: the whole surface.
+     */
+    double region[4];
+    /**
+     * Steps at most; 0: the default, 60 (curves), 40 (surfaces).
+     */
+    uint32_t steps;
+    /**
+     * Must be 0.
+     */
+    uint32_t reserved;
+    /**
+     * Asked on the calling thread between steps; non-zero ends the call with FPT_CANCELLED. NULL: never.
+     */
+    int (*should_stop)(void *user);
+    /**
+     * Handed to should_stop as it is.
+     */
+    void *user;
+} fpt_fair_options;
+
+/**
+ * A report in a few numbers: 40 bytes, frozen.
+ */
+typedef struct fpt_fair_summary {
+    /**
+     * The energy before the first step.
+     */
+    double energy_before;
+    /**
+     * The energy after the last step, never more.
+     */
+    double energy_after;
+    /**
+     * No point has moved farther from the point of the same parameters, proven; at most the deviation asked for.
+     */
+    double deviation;
+    /**
+     * Steps that lowered the energy.
+     */
+    uint64_t steps;
+    /**
+     * 1: the last steps changed the energy by less than a millionth.
+     */
+    uint32_t converged;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} fpt_fair_summary;
+
+/**
+ * The least and the greatest value of a quantity, each between two bounds: 88 bytes, frozen.
+ */
+typedef struct fpt_inspect_range {
+    /**
+     * Nothing is less than the first; something is not greater than the second.
+     */
+    double least[2];
+    /**
+     * Something is not less than the first; nothing is greater than the second.
+     */
+    double greatest[2];
+    /**
+     * Parameters where the inner bound of the least is attained; curves: u, 0.
+     */
+    double at_least[2];
+    /**
+     * Parameters where the inner bound of the greatest is attained; curves: u, 0.
+     */
+    double at_greatest[2];
+    /**
+     * Share of the domain of which nothing is proven: beside collapsed edges and cusps, where curvatures are not bounded. The
+     * bounds hold for the rest.
+     */
+    double excluded;
+    /**
+     * Boxes looked at.
+     */
+    uint64_t boxes;
+    /**
+     * 1: both gaps are the allowed ones and nothing is excluded.
+     */
+    uint32_t proven;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} fpt_inspect_range;
+
+/**
+ * A tooth of a curvature comb: 96 bytes, frozen.
+ */
+typedef struct fpt_inspect_tooth {
+    /**
+     * Parameter.
+     */
+    double u;
+    /**
+     * The point.
+     */
+    double point[3];
+    /**
+     * Unit tangent; 0 where the derivative vanishes.
+     */
+    double tangent[3];
+    /**
+     * Curvature times the unit normal: towards the centre of curvature.
+     */
+    double bend[3];
+    /**
+     * 1 / length, >= 0.
+     */
+    double curvature;
+    /**
+     * 1 / length; 0 where the curvature vanishes.
+     */
+    double torsion;
+} fpt_inspect_tooth;
+
+/**
+ * The curvatures at one place of a surface: 136 bytes, frozen. All NaN but the last two where the parametrisation is singular.
+ */
+typedef struct fpt_inspect_curvature {
+    /**
+     * The point.
+     */
+    double point[3];
+    /**
+     * Unit normal, along S_u x S_v.
+     */
+    double normal[3];
+    /**
+     * Greater and less principal curvature; positive: towards the normal.
+     */
+    double principal[2];
+    /**
+     * Unit direction of the greater one, then of the less.
+     */
+    double directions[6];
+    /**
+     * Half their sum.
+     */
+    double mean;
+    /**
+     * Their product.
+     */
+    double gaussian;
+    /**
+     * 1: they are equal up to rounding, and the directions any.
+     */
+    uint32_t is_umbilic;
+    /**
+     * 1: the parametrisation is singular.
+     */
+    uint32_t is_singular;
+} fpt_inspect_curvature;
+
+/**
+ * A place or a piece: 56 bytes, frozen.
+ */
+typedef struct fpt_inspect_place {
+    /**
+     * First and last u of the piece or box.
+     */
+    double u[2];
+    /**
+     * First and last v; curves: 0.
+     */
+    double v[2];
+    /**
+     * Monotone pieces: curvature at both ends. Inflections: the parameter, 0. Umbilics: difference of the principal curvatures at
+     * the best place found, 0.
+     */
+    double value[2];
+    /**
+     * A value of fpt_inspect_kind.
+     */
+    uint32_t kind;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} fpt_inspect_place;
+
+/**
+ * The greatest distance of a point of one shape from another: 48 bytes, frozen.
+ */
+typedef struct fpt_inspect_distance {
+    /**
+     * Some point is not nearer than this to the other shape.
+     */
+    double lower;
+    /**
+     * No point is farther than this from the other shape.
+     */
+    double upper;
+    /**
+     * Parameters of that point; curves: u, 0.
+     */
+    double at[2];
+    /**
+     * Boxes looked at.
+     */
+    uint64_t boxes;
+    /**
+     * 1: the gap is the allowed one.
+     */
+    uint32_t proven;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} fpt_inspect_distance;
+
+/**
+ * A greatest value and its bounds: 24 bytes, frozen.
+ */
+typedef struct fpt_inspect_measured {
+    /**
+     * Found somewhere.
+     */
+    double lower;
+    /**
+     * Nowhere more, proven.
+     */
+    double upper;
+    /**
+     * Parameter of the first border where the lower one is.
+     */
+    double at;
+} fpt_inspect_measured;
+
+/**
+ * How two surfaces meet: 80 bytes, frozen.
+ */
+typedef struct fpt_inspect_continuity {
+    /**
+     * Greatest distance of a point of the first border from the second, length.
+     */
+    struct fpt_inspect_measured gap;
+    /**
+     * Greatest angle of the normals, radians, 0 to pi / 2; orientations do not count.
+     */
+    struct fpt_inspect_measured angle;
+    /**
+     * Greatest difference of the normal curvatures across the border, 1 / length.
+     */
+    struct fpt_inspect_measured curvature;
+    /**
+     * Intervals looked at.
+     */
+    uint64_t intervals;
+} fpt_inspect_continuity;
 
 #ifdef __cplusplus
 extern "C" {
@@ -5238,6 +5782,275 @@ fpt_status fpt_surface_intersection_curves(const struct fpt_surface_intersection
  * @since 0.1
  */
 void fpt_surface_intersection_free(struct fpt_surface_intersection *intersection);
+
+/**
+ * Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.
+ * Does nothing when `options` is NULL or struct_size is smaller than a size_t.
+ * @since 0.1
+ */
+void fpt_inspect_options_init(struct fpt_inspect_options *options, size_t struct_size);
+
+/**
+ * Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.
+ * Does nothing when `options` is NULL or struct_size is smaller than a size_t.
+ * @since 0.1
+ */
+void fpt_inspect_picture_options_init(struct fpt_inspect_picture_options *options,
+                                      size_t struct_size);
+
+/**
+ * Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.
+ * Does nothing when `options` is NULL or struct_size is smaller than a size_t.
+ * @since 0.1
+ */
+void fpt_fair_options_init(struct fpt_fair_options *options, size_t struct_size);
+
+/**
+ * A fairer curve on the same knots and weights.
+ *
+ * @param options  what is wanted; deviation must be set, so NULL is FPT_INVALID_ARGUMENT
+ * @param out      the report; release it with fpt_fair_report_free
+ * @return FPT_INVALID_ARGUMENT names the option; FPT_UNSUPPORTED for a curve from a callback
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_fair_curve(const struct fpt_curve *curve,
+                          const struct fpt_fair_options *options,
+                          struct fpt_fair_report **out);
+
+/**
+ * A fairer surface on the same knots and weights.
+ *
+ * @param options  what is wanted; deviation must be set, so NULL is FPT_INVALID_ARGUMENT
+ * @param out      the report; release it with fpt_fair_report_free
+ * @return FPT_INVALID_ARGUMENT names the option; FPT_UNSUPPORTED for a surface from a callback, knot removal of a rational surface,
+ *         and borders of a direction that is not clamped; FPT_OUT_OF_MEMORY for too many poles
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_fair_surface(const struct fpt_surface *surface,
+                            const struct fpt_fair_options *options,
+                            struct fpt_fair_report **out);
+
+/**
+ * The numbers of a report.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_fair_report_summary(const struct fpt_fair_report *report,
+                                   struct fpt_fair_summary *out);
+
+/**
+ * The energy before the first step and after each, never rising.
+ *
+ * @param capacity      numbers that out_energies has room for, at least the steps of the summary + 1
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_fair_report_energies(const struct fpt_fair_report *report,
+                                    size_t capacity,
+                                    double *out_energies);
+
+/**
+ * The faired curve, a new handle.
+ *
+ * @param out_curve  release it with fpt_curve_free
+ * @return FPT_UNSUPPORTED when a surface was faired
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_fair_report_curve(const struct fpt_fair_report *report,
+                                 struct fpt_curve **out_curve);
+
+/**
+ * The faired surface, a new handle.
+ *
+ * @param out_surface  release it with fpt_surface_free
+ * @return FPT_UNSUPPORTED when a curve was faired
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_fair_report_surface(const struct fpt_fair_report *report,
+                                   struct fpt_surface **out_surface);
+
+/**
+ * Releases a report. NULL is fine.
+ * @since 0.1
+ */
+void fpt_fair_report_free(struct fpt_fair_report *report);
+
+/**
+ * The range of the curvature of a curve or a part of it, proven: no sampling.
+ *
+ * @param options  domain, relative, budget; NULL: the defaults
+ * @return FPT_UNSUPPORTED for a curve from a callback and for degrees above 23, rational ones above 15
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_inspect_curve_range(const struct fpt_curve *curve,
+                                   const struct fpt_inspect_options *options,
+                                   struct fpt_inspect_range *out);
+
+/**
+ * The range of a curvature over a surface or a part of it, proven: no sampling. 1 / greatest of FPT_QUANTITY_SHARPEST bounds the
+ * least radius of curvature.
+ *
+ * Cost: about ten microseconds a box; from a hundred boxes (bicubic, calm) to thousands (constant curvature, many patches).
+ *
+ * @param quantity  a value of fpt_inspect_quantity
+ * @param options   domain, relative, budget; NULL: the defaults
+ * @return FPT_UNSUPPORTED for a surface from a callback and for degrees above 23, rational ones above 15
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_inspect_surface_range(const struct fpt_surface *surface,
+                                     uint32_t quantity,
+                                     const struct fpt_inspect_options *options,
+                                     struct fpt_inspect_range *out);
+
+/**
+ * The teeth of a curvature comb.
+ *
+ * @param parameters  `count` parameters in the domain; at a knot the right-sided piece counts, at the domain's end the left one
+ * @param out         room for `count` records
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_inspect_comb(const struct fpt_curve *curve,
+                            const double *parameters,
+                            size_t count,
+                            struct fpt_inspect_tooth *out);
+
+/**
+ * Curvatures and principal directions at places of a surface.
+ *
+ * @param parameters  `count` pairs u,v in the domain
+ * @param out         room for `count` records
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_inspect_curvatures(const struct fpt_surface *surface,
+                                  const double *parameters,
+                                  size_t count,
+                                  struct fpt_inspect_curvature *out);
+
+/**
+ * The pieces of a curve on which the curvature is monotone, in order: kinds FPT_PLACE_RISING to FPT_PLACE_UNKNOWN. Complete: none
+ * holds an extremum of the curvature inside, but those of unknown kind.
+ *
+ * @param out  the set; release it with fpt_inspect_set_free
+ * @return FPT_UNSUPPORTED for a curve from a callback and for degrees above 17, rational ones above 9
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_inspect_monotone_pieces(const struct fpt_curve *curve,
+                                       struct fpt_inspect_set **out);
+
+/**
+ * The places where a curve, seen along a direction, changes the side to which it bends or is straight, in order: kinds
+ * FPT_PLACE_INFLECTION and FPT_PLACE_STRAIGHT.
+ *
+ * @param normal  3 numbers, not 0; NULL: across the plane that the poles lie in, at least about
+ * @param out     the set; release it with fpt_inspect_set_free
+ * @return FPT_UNSUPPORTED for a curve from a callback and for degrees above 17, rational ones above 9
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_inspect_inflections(const struct fpt_curve *curve,
+                                   const double *normal,
+                                   struct fpt_inspect_set **out);
+
+/**
+ * Boxes outside of which the principal curvatures of a surface are proven to differ: kinds FPT_PLACE_UMBILIC and
+ * FPT_PLACE_UMBILIC_AREA. Planes and spheres are one large box.
+ *
+ * @param options  domain, budget; NULL: the defaults
+ * @param out      the set; release it with fpt_inspect_set_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_inspect_umbilics(const struct fpt_surface *surface,
+                                const struct fpt_inspect_options *options,
+                                struct fpt_inspect_set **out);
+
+/**
+ * The number of places of a set.
+ * @since 0.1
+ */
+FPT_MUST_USE fpt_status fpt_inspect_set_count(const struct fpt_inspect_set *set, size_t *out_count);
+
+/**
+ * A place of a set.
+ *
+ * @param index  below the count, else FPT_INVALID_ARGUMENT
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_inspect_set_get(const struct fpt_inspect_set *set,
+                               size_t index,
+                               struct fpt_inspect_place *out);
+
+/**
+ * Releases a set. NULL is fine.
+ * @since 0.1
+ */
+void fpt_inspect_set_free(struct fpt_inspect_set *set);
+
+/**
+ * The Hausdorff distance between two shapes, between proven bounds: it is the greater of both directions. Of each shape exactly one
+ * handle is given.
+ *
+ * @param curve_a       the first shape, or NULL
+ * @param surface_a     the first shape, or NULL
+ * @param curve_b       the second shape, or NULL
+ * @param surface_b     the second shape, or NULL
+ * @param options       accuracy, budget (for each direction); NULL: the defaults
+ * @param out_forward   from the first shape to the second
+ * @param out_backward  from the second shape to the first
+ * @return FPT_UNSUPPORTED for shapes from callbacks
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_inspect_hausdorff(const struct fpt_curve *curve_a,
+                                 const struct fpt_surface *surface_a,
+                                 const struct fpt_curve *curve_b,
+                                 const struct fpt_surface *surface_b,
+                                 const struct fpt_inspect_options *options,
+                                 struct fpt_inspect_distance *out_forward,
+                                 struct fpt_inspect_distance *out_backward);
+
+/**
+ * How a border of one surface meets a border of another: gap, angle of the normals, jump of the curvature across, each with bounds.
+ *
+ * @param side_a   border of surface_a: 0 u = u0, 1 u = u1, 2 v = v0, 3 v = v1
+ * @param side_b   border of surface_b
+ * @param options  should_stop only; NULL: the defaults
+ * @return FPT_UNSUPPORTED for surfaces from callbacks and for degrees above 23, rational ones above 15
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_inspect_border(const struct fpt_surface *surface_a,
+                              uint32_t side_a,
+                              const struct fpt_surface *surface_b,
+                              uint32_t side_b,
+                              const struct fpt_inspect_options *options,
+                              struct fpt_inspect_continuity *out);
+
+/**
+ * A picture of a surface: pixels, row by row from above, red, green and blue of each.
+ *
+ * @param options     what is drawn; NULL: the defaults
+ * @param capacity    bytes that out_pixels has room for, at least 3 x width x height
+ * @param out_pixels  the pixels
+ * @param out_range   2 numbers: values of the ends of the colours of curvature, 0 for other patterns; NULL: not wanted
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_inspect_picture(const struct fpt_surface *surface,
+                               const struct fpt_inspect_picture_options *options,
+                               size_t capacity,
+                               uint8_t *out_pixels,
+                               double *out_range);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -1913,8 +1913,6 @@ inline offset_spline<surface> fit_offset(const surface &shape, double distance, 
     return {surface(out), measured, proven};
 }
 
-};
-
 /** fpt_intersect_surfaces_options that begin as the defaults. */
 struct intersect_surfaces_options : fpt_intersect_surfaces_options {
     intersect_surfaces_options() noexcept : fpt_intersect_surfaces_options() {
@@ -1993,6 +1991,168 @@ private:
 
     std::unique_ptr<fpt_surface_intersection, deleter> handle_;
 };
+
+/** fpt_fair_options that begin as the defaults, with the deviation that must be set. */
+struct fair_options : fpt_fair_options {
+    explicit fair_options(double length) noexcept : fpt_fair_options() {
+        fpt_fair_options_init(this, sizeof(fpt_fair_options));
+        deviation = length;
+    }
+};
+
+/** A faired shape: owner of an fpt_fair_report. */
+class fair_report {
+public:
+    /** Takes a handle over. */
+    explicit fair_report(fpt_fair_report *handle) noexcept : handle_(handle) {}
+    /** As fpt_fair_curve. */
+    fair_report(const curve &shape, const fpt_fair_options &options) : handle_(made(fpt_fair_curve, shape.get(), options)) {}
+    /** As fpt_fair_surface. */
+    fair_report(const surface &shape, const fpt_fair_options &options)
+        : handle_(made(fpt_fair_surface, shape.get(), options)) {}
+
+    /** The handle, still owned here. */
+    const fpt_fair_report *get() const noexcept { return handle_.get(); }
+    /** The handle, owned by the caller from now on. */
+    fpt_fair_report *release() noexcept { return handle_.release(); }
+
+    fpt_fair_summary summary() const { return detail::value(fpt_fair_report_summary, get()); }
+    /** The energy before the first step and after each. */
+    std::vector<double> energies() const {
+        return detail::vector(fpt_fair_report_energies, get(), static_cast<std::size_t>(summary().steps) + 1);
+    }
+    /** The faired curve; thrown when a surface was faired. */
+    curve as_curve() const { return curve(detail::value(fpt_fair_report_curve, get())); }
+    /** The faired surface; thrown when a curve was faired. */
+    surface as_surface() const { return surface(detail::value(fpt_fair_report_surface, get())); }
+
+private:
+    struct deleter {
+        void operator()(fpt_fair_report *handle) const noexcept { fpt_fair_report_free(handle); }
+    };
+
+    template <class Call, class Shape>
+    static fpt_fair_report *made(Call call, const Shape *shape, const fpt_fair_options &options) {
+        fpt_fair_report *out = nullptr;
+        check(call(shape, &options, &out));
+        return out;
+    }
+
+    std::unique_ptr<fpt_fair_report, deleter> handle_;
+};
+
+/** fpt_inspect_options that begin as the defaults. */
+struct inspect_options : fpt_inspect_options {
+    inspect_options() noexcept : fpt_inspect_options() { fpt_inspect_options_init(this, sizeof(fpt_inspect_options)); }
+};
+
+/** fpt_inspect_picture_options that begin as the defaults. */
+struct picture_options : fpt_inspect_picture_options {
+    picture_options() noexcept : fpt_inspect_picture_options() {
+        fpt_inspect_picture_options_init(this, sizeof(fpt_inspect_picture_options));
+    }
+};
+
+/** As fpt_inspect_curve_range. */
+inline fpt_inspect_range curvature_range(const curve &shape, const fpt_inspect_options &options = inspect_options()) {
+    fpt_inspect_range out{};
+    check(fpt_inspect_curve_range(shape.get(), &options, &out));
+    return out;
+}
+/** As fpt_inspect_surface_range. */
+inline fpt_inspect_range curvature_range(const surface &shape, fpt_inspect_quantity quantity = FPT_QUANTITY_SHARPEST,
+                                         const fpt_inspect_options &options = inspect_options()) {
+    fpt_inspect_range out{};
+    check(fpt_inspect_surface_range(shape.get(), static_cast<std::uint32_t>(quantity), &options, &out));
+    return out;
+}
+/** As fpt_inspect_comb. */
+inline std::vector<fpt_inspect_tooth> comb(const curve &shape, span<const double> parameters) {
+    std::vector<fpt_inspect_tooth> out(parameters.size());
+    check(fpt_inspect_comb(shape.get(), parameters.data(), parameters.size(), out.data()));
+    return out;
+}
+/** As fpt_inspect_curvatures: u,v of each place. */
+inline std::vector<fpt_inspect_curvature> curvatures(const surface &shape, span<const double> parameters) {
+    detail::require(parameters.size() % 2 == 0, "parameters: need u,v each");
+    std::vector<fpt_inspect_curvature> out(parameters.size() / 2);
+    check(fpt_inspect_curvatures(shape.get(), parameters.data(), out.size(), out.data()));
+    return out;
+}
+
+namespace detail {
+/** The places of a set, which is released. */
+inline std::vector<fpt_inspect_place> places(fpt_inspect_set *set) {
+    struct deleter {
+        void operator()(fpt_inspect_set *handle) const noexcept { fpt_inspect_set_free(handle); }
+    };
+    const std::unique_ptr<fpt_inspect_set, deleter> owner(set);
+    std::vector<fpt_inspect_place> out(value(fpt_inspect_set_count, static_cast<const fpt_inspect_set *>(set)));
+    for (std::size_t i = 0; i < out.size(); i++) check(fpt_inspect_set_get(set, i, &out[i]));
+    return out;
+}
+} // namespace detail
+
+/** As fpt_inspect_monotone_pieces. */
+inline std::vector<fpt_inspect_place> monotone_pieces(const curve &shape) {
+    fpt_inspect_set *out = nullptr;
+    check(fpt_inspect_monotone_pieces(shape.get(), &out));
+    return detail::places(out);
+}
+/** As fpt_inspect_inflections across the plane of the poles. */
+inline std::vector<fpt_inspect_place> inflections(const curve &shape) {
+    fpt_inspect_set *out = nullptr;
+    check(fpt_inspect_inflections(shape.get(), nullptr, &out));
+    return detail::places(out);
+}
+/** As fpt_inspect_inflections seen along a direction. */
+inline std::vector<fpt_inspect_place> inflections(const curve &shape, const point &normal) {
+    fpt_inspect_set *out = nullptr;
+    check(fpt_inspect_inflections(shape.get(), normal.data(), &out));
+    return detail::places(out);
+}
+/** As fpt_inspect_umbilics. */
+inline std::vector<fpt_inspect_place> umbilics(const surface &shape, const fpt_inspect_options &options = inspect_options()) {
+    fpt_inspect_set *out = nullptr;
+    check(fpt_inspect_umbilics(shape.get(), &options, &out));
+    return detail::places(out);
+}
+
+/** Both directions of a Hausdorff distance. */
+struct hausdorff_distance {
+    fpt_inspect_distance forward;
+    fpt_inspect_distance backward;
+};
+
+namespace detail {
+inline const fpt_curve *curve_of(const curve &shape) noexcept { return shape.get(); }
+inline const fpt_curve *curve_of(const surface &) noexcept { return nullptr; }
+inline const fpt_surface *surface_of(const curve &) noexcept { return nullptr; }
+inline const fpt_surface *surface_of(const surface &shape) noexcept { return shape.get(); }
+} // namespace detail
+
+/** As fpt_inspect_hausdorff; each shape is a curve or a surface. */
+template <class First, class Second>
+hausdorff_distance hausdorff(const First &first, const Second &second, const fpt_inspect_options &options = inspect_options()) {
+    hausdorff_distance out{};
+    check(fpt_inspect_hausdorff(detail::curve_of(first), detail::surface_of(first), detail::curve_of(second),
+                                detail::surface_of(second), &options, &out.forward, &out.backward));
+    return out;
+}
+/** As fpt_inspect_border. */
+inline fpt_inspect_continuity border(const surface &a, std::uint32_t side_a, const surface &b, std::uint32_t side_b,
+                                     const fpt_inspect_options &options = inspect_options()) {
+    fpt_inspect_continuity out{};
+    check(fpt_inspect_border(a.get(), side_a, b.get(), side_b, &options, &out));
+    return out;
+}
+/** As fpt_inspect_picture: red, green and blue of each pixel, row by row from above. */
+inline std::vector<std::uint8_t> picture(const surface &shape, const fpt_inspect_picture_options &options = picture_options()) {
+    detail::require(options.width <= 8192 && options.height <= 8192, "width, height: 1 to 8192 accepted");
+    std::vector<std::uint8_t> out(std::size_t(3) * options.width * options.height);
+    check(fpt_inspect_picture(shape.get(), &options, out.size(), out.data(), nullptr));
+    return out;
+}
 
 } // namespace footpoint
 

@@ -16,6 +16,7 @@
 //!                   -> weights                                 weights.rs, weights_records.rs, weights_report.rs, weights_edit.rs
 //!                   -> transform, trim                         transform.rs, support.rs, trim.rs, trim_parts.rs,
 //!                                                              trim_change.rs, trim_report.rs
+//!                   -> fair, inspect                          fair.rs, inspect_records.rs, inspect.rs
 //!          <- fpt_status, text of a failure for fpt_last_error
 //! ```
 //!
@@ -59,6 +60,9 @@ mod trim_parts;
 mod trim_change;
 mod trim_report;
 mod march;
+mod inspect_records;
+mod fair;
+mod inspect;
 #[cfg(test)]
 mod tests;
 

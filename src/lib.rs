@@ -73,4 +73,8 @@ pub mod face;
 
 pub mod march;
 
+pub mod fair;
+
+pub mod inspect;
+
 mod ffi;

@@ -206,6 +206,59 @@ class IntersectionPoint(ctypes.Structure):
 
 class IntersectionContact(ctypes.Structure):
     _fields_ = [("place", IntersectionPoint), ("gap", c_double), ("radius", c_double), ("kind", c_uint32), ("reserved", c_uint32)]
+class FairOptions(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("deviation", c_double), ("strain", c_double), ("jerk", c_double), ("distance", c_double),
+                ("method", c_uint32), ("by_length", c_uint32), ("ends", c_uint32 * 2), ("borders", c_uint32 * 4), ("fixed", c_void_p),
+                ("fixed_count", c_size_t), ("through", c_void_p), ("through_count", c_size_t), ("knots", c_void_p), ("knot_count", c_size_t),
+                ("length", c_double * 2), ("region", c_double * 4), ("steps", c_uint32), ("reserved", c_uint32),
+                ("should_stop", StopFunction), ("user", c_void_p)]
+
+
+class FairSummary(ctypes.Structure):
+    _fields_ = [("energy_before", c_double), ("energy_after", c_double), ("deviation", c_double), ("steps", c_uint64),
+                ("converged", c_uint32), ("reserved", c_uint32)]
+
+
+class InspectOptions(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("domain", c_double * 4), ("relative", c_double), ("accuracy", c_double), ("budget", c_uint64),
+                ("should_stop", StopFunction), ("user", c_void_p)]
+
+
+class InspectPictureOptions(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("pattern", c_uint32), ("bands", c_uint32), ("width", c_uint32), ("height", c_uint32),
+                ("eye", c_double * 3), ("up", c_double * 3), ("light", c_double * 3), ("range", c_double * 2)]
+
+
+class InspectRange(ctypes.Structure):
+    _fields_ = [("least", c_double * 2), ("greatest", c_double * 2), ("at_least", c_double * 2), ("at_greatest", c_double * 2),
+                ("excluded", c_double), ("boxes", c_uint64), ("proven", c_uint32), ("reserved", c_uint32)]
+
+
+class InspectTooth(ctypes.Structure):
+    _fields_ = [("u", c_double), ("point", c_double * 3), ("tangent", c_double * 3), ("bend", c_double * 3), ("curvature", c_double),
+                ("torsion", c_double)]
+
+
+class InspectCurvatures(ctypes.Structure):
+    _fields_ = [("point", c_double * 3), ("normal", c_double * 3), ("principal", c_double * 2), ("directions", c_double * 6),
+                ("mean", c_double), ("gaussian", c_double), ("is_umbilic", c_uint32), ("is_singular", c_uint32)]
+
+
+class InspectPlace(ctypes.Structure):
+    _fields_ = [("u", c_double * 2), ("v", c_double * 2), ("value", c_double * 2), ("kind", c_uint32), ("reserved", c_uint32)]
+
+
+class InspectMeasured(ctypes.Structure):
+    _fields_ = [("lower", c_double), ("upper", c_double), ("at", c_double)]
+
+
+class InspectContinuity(ctypes.Structure):
+    _fields_ = [("gap", InspectMeasured), ("angle", InspectMeasured), ("curvature", InspectMeasured), ("intervals", c_uint64)]
+
+
+class InspectDistance(ctypes.Structure):
+    _fields_ = [("lower", c_double), ("upper", c_double), ("at", c_double * 2), ("boxes", c_uint64), ("proven", c_uint32),
+                ("reserved", c_uint32)]
 
 
 STRUCTS: dict[str, type[ctypes.Structure]] = {
@@ -223,6 +276,10 @@ STRUCTS: dict[str, type[ctypes.Structure]] = {
     "fpt_intersect_surfaces_options": IntersectSurfacesOptions, "fpt_intersection_summary": IntersectionSummary,
     "fpt_intersection_branch": IntersectionBranch, "fpt_intersection_point": IntersectionPoint,
     "fpt_intersection_contact": IntersectionContact,
+    "fpt_fair_options": FairOptions, "fpt_fair_summary": FairSummary, "fpt_inspect_options": InspectOptions,
+    "fpt_inspect_picture_options": InspectPictureOptions, "fpt_inspect_range": InspectRange, "fpt_inspect_tooth": InspectTooth,
+    "fpt_inspect_curvature": InspectCurvatures, "fpt_inspect_place": InspectPlace, "fpt_inspect_measured": InspectMeasured,
+    "fpt_inspect_continuity": InspectContinuity, "fpt_inspect_distance": InspectDistance,
 }
 
 # One letter an argument: p pointer (arrays, handles, structs), z size_t, d double, I uint32_t, i int32_t.
@@ -277,6 +334,11 @@ _STATUS = {
     "intersect_surfaces": "pppp", "surface_intersection_summary": "pp", "surface_intersection_branch": "pzp",
     "surface_intersection_points": "pzzp", "surface_intersection_contact": "pzp", "surface_intersection_overlap": "pzp",
     "surface_intersection_undecided": "pzp", "surface_intersection_curves": "pppzdzppp",
+    "fair_curve": "ppp", "fair_surface": "ppp", "fair_report_summary": "pp", "fair_report_energies": "pzp", "fair_report_curve": "pp",
+    "fair_report_surface": "pp", "inspect_curve_range": "ppp", "inspect_surface_range": "pIpp", "inspect_comb": "ppzp",
+    "inspect_curvatures": "ppzp", "inspect_monotone_pieces": "pp", "inspect_inflections": "ppp", "inspect_umbilics": "ppp",
+    "inspect_set_count": "pp", "inspect_set_get": "pzp", "inspect_hausdorff": "ppppppp", "inspect_border": "pIpIpp",
+    "inspect_picture": "ppzpp",
 }
 _OTHER = {
     "last_error": ("", c_char_p), "status_name": ("i", c_char_p), "version": ("", c_uint32), "abi_version": ("", c_uint32),
@@ -287,6 +349,8 @@ _OTHER = {
     "trim_free": ("p", None), "trim_report_free": ("p", None),
     "pull_options_init": ("pz", None), "lift_options_init": ("pz", None), "pcurve_set_free": ("p", None), "face_free": ("p", None),
     "intersect_surfaces_options_init": ("pz", None), "surface_intersection_free": ("p", None),
+    "fair_options_init": ("pz", None), "fair_report_free": ("p", None), "inspect_options_init": ("pz", None),
+    "inspect_picture_options_init": ("pz", None), "inspect_set_free": ("p", None),
 }
 PROTOTYPES = {name: (letters, c_int32) for name, letters in _STATUS.items()} | _OTHER
 

@@ -189,13 +189,14 @@ class Call:
         self.struct = struct_type()
         lib.functions[init](ctypes.addressof(self.struct), ctypes.sizeof(self.struct))
         self._hints: np.ndarray | None = None
-        for name in ("tolerance", "accuracy", "radius", "weight_min", "weight_max", "ratio_limit", "chord"):
+        for name in ("tolerance", "accuracy", "radius", "weight_min", "weight_max", "ratio_limit", "chord", "relative", "deviation", "strain",
+                     "jerk", "distance"):
             if name in options:
                 setattr(self.struct, name, real(name, options[name]))
         for name, most in _INTEGERS.items():
             if name in options:
                 setattr(self.struct, name, integer(name, options[name], 0, most))
-        for name in ("minima_only", "symmetric"):
+        for name in ("minima_only", "symmetric", "by_length"):
             if name in options:
                 setattr(self.struct, name, 1 if options[name] else 0)
         if options.get("domain") is not None:
@@ -341,9 +342,67 @@ class IntersectSurfacesOptions(TypedDict, total=False):
     progress: "Callable[[int, int], object] | bool | None"
 
 
+class FairOptions(TypedDict, total=False):
+    """The keywords of `fair.curve` and `fair.surface`.
+
+    method       a `fair.Method`; default ENERGY
+    strain       weight of the squared second derivatives (surfaces: of the thin plate); default 1
+    jerk         weight of the squared third derivatives; default 0
+    distance     weight of the squared distance from the shape as it was; default 0
+    by_length    curves: derivatives and integrals by the arc length, not by the parameter
+    ends         curves: what is kept at start and end, a pair of 0 nothing, 1 point, 2 first derivative, 3 second; default (2, 2)
+    borders      surfaces: what is kept along u0, u1, v0, v1: 0 nothing, 1 G0, 2 G1, 3 G2; default (2, 2, 2, 2)
+    fixed        curves: numbers of poles that stay
+    through      curves: parameters whose points stay
+    knots        curves: the knots that KNOT_REMOVAL may fair; default all inner ones
+    length       curves: least and greatest arc length allowed
+    region       surfaces: u0, u1, v0, v1: only this part changes
+    steps        steps at most; 0: the default
+    should_stop  called without arguments between steps; a true result ends the call with `Cancelled`
+    """
+
+    method: int
+    strain: float
+    jerk: float
+    distance: float
+    deviation: float
+    by_length: bool
+    ends: "ArrayLike"
+    borders: "ArrayLike"
+    fixed: "ArrayLike"
+    through: "ArrayLike"
+    knots: "ArrayLike"
+    length: "ArrayLike"
+    region: "ArrayLike"
+    steps: int
+    should_stop: "Callable[[], object] | None"
+
+
+class InspectOptions(TypedDict, total=False):
+    """The keywords of the functions in `inspect` that prove bounds.
+
+    domain       u0, u1, v0, v1 (curves: u0, u1): only this part (ranges, umbilics)
+    relative     allowed gap of a range, as a share of its size; default 1e-3
+    accuracy     length: allowed gap of a distance; 0: 1e-3 of the diagonal of the first shape
+    budget       most boxes; 0: the default
+    should_stop  called without arguments now and then; a true result ends the call with `Cancelled`
+    """
+
+    domain: "ArrayLike | None"
+    relative: float
+    accuracy: float
+    budget: int
+    should_stop: "Callable[[], object] | None"
+
+
 _OPTIONS: dict[Any, tuple[str, Any]] = {
     lib.QueryOptions: ("query_options_init", QueryOptions), lib.ExtremaOptions: ("extrema_options_init", ExtremaOptions),
     lib.WeightsOptions: ("weights_options_init", WeightsOptions),
     lib.IntersectSurfacesOptions: ("intersect_surfaces_options_init", IntersectSurfacesOptions), lib.PullOptions: ("pull_options_init", PullOptions)}
 _INTEGERS = {"method": 2**32 - 1, "scope": 2**32 - 1, "threads": 2**32 - 1, "budget": 2**64 - 1, "nearest": 2**63 - 1, "degree": 31, "pole_limit": 2**63 - 1, "steps": 2**32 - 1,
+
+
+    lib.WeightsOptions: ("weights_options_init", WeightsOptions), lib.FairOptions: ("fair_options_init", FairOptions),
+    lib.InspectOptions: ("inspect_options_init", InspectOptions)}
+_INTEGERS = {"method": 2**32 - 1, "scope": 2**32 - 1, "threads": 2**32 - 1, "budget": 2**64 - 1, "nearest": 2**63 - 1, "steps": 2**32 - 1,
              "starts": 2**32 - 1, "seed": 2**64 - 1}

@@ -9,7 +9,7 @@ import pytest
 from shapes import ROOT, circle, cloud, cylinder, hill
 
 import footpoint
-from footpoint import _face, _feet, _library, construct, pcurve, trims, weights
+from footpoint import _face, _feet, _library, construct, fair, inspect, pcurve, trims, weights
 
 HEADER = re.sub(r"/\*.*?\*/", "", (ROOT / "include" / "footpoint.h").read_text(encoding="utf-8"), flags=re.S)
 SCALARS = {"size_t": ctypes.c_size_t, "double": ctypes.c_double, "uint32_t": ctypes.c_uint32, "int32_t": ctypes.c_int32,
@@ -57,22 +57,27 @@ def test_structs():
                                           (footpoint.PathChange, "FPT_PATH_"), (footpoint.Method, "FPT_METHOD_"),
                                           (footpoint.Scope, "FPT_SCOPE_"), (footpoint.Kind, "FPT_MEMBER_"),
                                           (footpoint.Nature, "FPT_NATURE_"), (weights.State, "FPT_WISH_"),
-                                          (weights.WeightFlag, "FPT_WEIGHT_"), (weights.ConstraintKind, "FPT_CONSTRAINT_"),
-                                          (weights.Unit, "FPT_UNIT_"), (construct.Spacing, "FPT_SPACING_"),
-                                          (construct.Condition, "FPT_FIT_"), (construct.ArcForm, "FPT_ARC_"),
-                                          (construct.QuadricKind, "FPT_QUADRIC_"), (trims.ElementaryKind, "FPT_ELEMENTARY_"),
-                                          (trims.PcurveKind, "FPT_PCURVE_"), (trims.CoedgeFlag, "FPT_COEDGE_"),
-                                          (trims.Replacement, "FPT_REPLACEMENT_"), (trims.FindingKind, "FPT_FINDING_"),
-                                          (pcurve.PcurveFlag, "FPT_DEVIATION_"), (footpoint.Standing, "FPT_FACE_"),
-                                          (footpoint.BranchEnd, "FPT_BRANCH_END_"), (footpoint.ContactKind, "FPT_CONTACT_")])
+                                          (weights.WeightFlag, "FPT_WEIGHT_"),
+                                          (weights.ConstraintKind, "FPT_CONSTRAINT_"), (weights.Unit, "FPT_UNIT_"),
+                                          (construct.Spacing, "FPT_SPACING_"), (construct.Condition, "FPT_FIT_"),
+                                          (construct.ArcForm, "FPT_ARC_"), (construct.QuadricKind, "FPT_QUADRIC_"),
+                                          (trims.ElementaryKind, "FPT_ELEMENTARY_"), (trims.PcurveKind, "FPT_PCURVE_"),
+                                          (trims.CoedgeFlag, "FPT_COEDGE_"), (trims.Replacement, "FPT_REPLACEMENT_"),
+                                          (trims.FindingKind, "FPT_FINDING_"), (pcurve.PcurveFlag, "FPT_DEVIATION_"),
+                                          (footpoint.Standing, "FPT_FACE_"), (footpoint.BranchEnd, "FPT_BRANCH_END_"),
+                                          (footpoint.ContactKind, "FPT_CONTACT_"), (fair.Method, "FPT_FAIR_"),
+                                          (inspect.Quantity, "FPT_QUANTITY_"), (inspect.Pattern, "FPT_PATTERN_"),
+                                          (inspect.Kind, "FPT_PLACE_")])
 def test_enums(enum: type[Enum], prefix):
     listed = {name: int(value) for name, value in re.findall(rf"^\s*{prefix}(\w+) = (\d+),", HEADER, re.M)}
     assert listed == {name: int(member) for name, member in enum.__members__.items()}
 
 
 def test_records():
-    for struct, dtype in ((_library.FootPoint, _feet.FOOT), (_library.FootMember, _feet.MEMBER), (_library.WeightsPole, weights.POLE),
-                          (_library.WeightsOutcome, weights.OUTCOME), (_library.FacePlace, _face.PLACE)):
+    for struct, dtype in ((_library.FootPoint, _feet.FOOT), (_library.FootMember, _feet.MEMBER),
+                          (_library.WeightsPole, weights.POLE), (_library.WeightsOutcome, weights.OUTCOME),
+                          (_library.FacePlace, _face.PLACE), (_library.InspectTooth, inspect.TOOTH),
+                          (_library.InspectCurvatures, inspect.CURVATURES), (_library.InspectPlace, inspect.PLACE)):
         assert dtype.itemsize == ctypes.sizeof(struct)
         assert {name: dtype.fields[name][1] for name in dtype.names} == {name: getattr(struct, name).offset for name, _ in struct._fields_}
     assert _library.ABI_VERSION == int(re.search(r"#define FPT_ABI_VERSION (\d+)", HEADER)[1])
@@ -154,10 +159,10 @@ def test_every_function_is_reached(monkeypatch):
     face = footpoint.Face(hill(), [[outline]])
     footpoint.Face.of_trim(trims.TrimmedSurface.whole(trims.Support(hill())))
     face.classify([0.2, 0.3]), face.closest(points), face.preimage(hill().evaluate([0.2, 0.3]))
-    footpoint.version(), footpoint.abi_version()
-    with pytest.raises(RuntimeError, match="FPT_INTERNAL"):
-        raise _library.failure(_library.INTERNAL)
-    del curve, surface, shape, scene, query, face
+    fair.curve(arch, 0.1), fair.surface(hill(), 0.1), inspect.curvature_range(arch), inspect.curvature_range(hill(), budget=10)
+    inspect.comb(arch), inspect.curvatures(hill(), [[0.5, 0.5]]), inspect.monotone_pieces(arch), inspect.inflections(arch)
+    inspect.umbilics(hill(), budget=10), inspect.hausdorff(arch, curve), inspect.border(hill(), 0, hill(), 0)
+    inspect.picture(hill(), size=(8, 8))
     flat = footpoint.Surface.from_poles(1, 1, [[[-9, -9, 0.5], [-9, 9, 0.5]], [[9, -9, 0.5], [9, 9, 0.5]]])
     met = footpoint.intersect_surfaces(surface, flat)
     assert len(met.branches) == 1 and met.is_proven and len(met.curves(0, 1e-4)) >= 1
@@ -170,7 +175,7 @@ def test_every_function_is_reached(monkeypatch):
     footpoint.version(), footpoint.abi_version()
     with pytest.raises(RuntimeError, match="FPT_INTERNAL"):
         raise _library.failure(_library.INTERNAL)
-    del curve, surface, shape, scene, query, met
+    del curve, surface, shape, scene, query, face, met
     assert set(_library.PROTOTYPES) - reached == set()
 
 

@@ -4,7 +4,7 @@ import FreeCAD
 import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
-from . import measure, objects, weights
+from . import fairing, measure, objects, weights
 from .settings import resource
 
 translate = FreeCAD.Qt.translate if hasattr(FreeCAD, "Qt") else lambda context, text, *_: text
@@ -193,6 +193,113 @@ class Weights(_Command):
             FreeCAD.Console.PrintMessage(f"Footpoint: {line}\n")
 
 
+class FairCurve(_Command):
+    """A fairer curve."""
+
+    icon = "Footpoint_FairCurve.svg"
+    menu = QT_TRANSLATE_NOOP("Footpoint", "Fair curve")
+    tip = QT_TRANSLATE_NOOP("Footpoint", "A curve with less bending and fewer inflections beside the selected edge, within a deviation that is proven")
+    kinds = ("Edge",)
+    wanted = QT_TRANSLATE_NOOP("Footpoint", "Select an edge.")
+
+    def run(self, target, point):
+        shape = target[0].Shape.getElement(target[1]) if target[1] else target[0].Shape
+        deviation = ask_deviation(shape.BoundBox.DiagonalLength)
+        if deviation is not None:
+            made = self.result(objects.FairResult, "Fair", target, Deviation=deviation)
+            FreeCAD.Console.PrintMessage(f"Footpoint: {made.Label}\n")
+
+
+class FairSurface(FairCurve):
+    """A fairer surface."""
+
+    icon = "Footpoint_FairSurface.svg"
+    menu = QT_TRANSLATE_NOOP("Footpoint", "Fair surface")
+    tip = QT_TRANSLATE_NOOP("Footpoint", "A surface with less bending beside that of the selected face, within a deviation that is proven; borders and tangents stay")
+    kinds = ("Face",)
+    wanted = QT_TRANSLATE_NOOP("Footpoint", "Select a face.")
+
+
+class Inspect(_Command):
+    """Curvature."""
+
+    icon = "Footpoint_Inspect.svg"
+    menu = QT_TRANSLATE_NOOP("Footpoint", "Inspect")
+    tip = QT_TRANSLATE_NOOP("Footpoint", "Least radius of curvature with a proof; comb and inflections of an edge; zebra, isophotes and colours of curvature of a face")
+    kinds = ("Edge", "Face")
+    wanted = QT_TRANSLATE_NOOP("Footpoint", "Select an edge or a face.")
+
+    def run(self, target, point):
+        found = self.result(objects.InspectResult, "Inspect", target)
+        for line in found.Report:
+            FreeCAD.Console.PrintMessage(f"Footpoint: {line}\n")
+        shape = target[0].Shape.getElement(target[1]) if target[1] else target[0].Shape
+        if shape.Faces:
+            Reflections.show_for(shape, found.Label)
+
+
+def ask_deviation(size):
+    """A length that is typed, beginning with a thousandth of the size; None when the dialog was cancelled."""
+    dialog = QtGui.QDialog(Gui.getMainWindow())
+    dialog.setObjectName("FootpointFairing")
+    dialog.setWindowTitle(translate(CONTEXT, "Fairing"))
+    form = QtGui.QFormLayout(dialog)
+    box = QtGui.QDoubleSpinBox()
+    box.setDecimals(9)
+    box.setRange(1e-9, 1e9)
+    box.setValue(1e-3 * size)
+    box.setSuffix(" mm")
+    form.addRow(translate(CONTEXT, "Greatest deviation"), box)
+    buttons = QtGui.QDialogButtonBox(QtGui.QDialogButtonBox.Ok | QtGui.QDialogButtonBox.Cancel)
+    buttons.accepted.connect(dialog.accept)
+    buttons.rejected.connect(dialog.reject)
+    form.addRow(buttons)
+    return box.value() if dialog.exec_() else None
+
+
+class Reflections(QtGui.QDockWidget):
+    """Pictures of a face: the pattern is chosen, the view is that of the window."""
+
+    def __init__(self, shape, title):
+        super().__init__(title, Gui.getMainWindow())
+        self.setObjectName("FootpointReflections")
+        self.shape = shape
+        inner = QtGui.QWidget()
+        layout = QtGui.QVBoxLayout(inner)
+        self.box = QtGui.QComboBox()
+        self.box.addItems(["Shaded", "Zebra", "Isophotes", "Reflection lines", "Highlight lines", "Greater curvature", "Less curvature",
+                           "Mean curvature", "Gaussian curvature"])
+        self.label = QtGui.QLabel()
+        self.box.setCurrentIndex(1)
+        self.box.currentIndexChanged.connect(lambda _=0: self.draw())
+        layout.addWidget(self.box)
+        layout.addWidget(self.label, 1)
+        self.setWidget(inner)
+        self.draw()
+
+    def draw(self):
+        """Makes the picture that is chosen."""
+        options = {}
+        view = getattr(Gui.ActiveDocument, "ActiveView", None)
+        if hasattr(view, "getViewDirection"):
+            options = {"eye": tuple(-view.getViewDirection()), "up": tuple(view.getUpDirection())}
+        made = fairing.picture(self.shape, self.box.currentIndex(), (480, 360), **options)
+        picture = QtGui.QPixmap()
+        picture.loadFromData(made.png(), "PNG")
+        self.label.setPixmap(picture)
+
+    @staticmethod
+    def show_for(shape, title):
+        """Shows the pictures of a face, in place of those before."""
+        window = Gui.getMainWindow()
+        for old in window.findChildren(QtGui.QDockWidget, "FootpointReflections"):
+            window.removeDockWidget(old)
+            old.deleteLater()
+        dock = Reflections(shape, title)
+        window.addDockWidget(QtCore.Qt.RightDockWidgetArea, dock)
+        return dock
+
+
 class Deviation(_Command):
     """Deviation map."""
 
@@ -316,7 +423,7 @@ class Legend(QtGui.QDockWidget):
 
 
 COMMANDS = {"Footpoint_Invert": Invert, "Footpoint_Closest": Closest, "Footpoint_Deviation": Deviation, "Footpoint_Check": Check,
-            "Footpoint_Weights": Weights}
+            "Footpoint_Weights": Weights, "Footpoint_FairCurve": FairCurve, "Footpoint_FairSurface": FairSurface, "Footpoint_Inspect": Inspect}
 
 
 def register():

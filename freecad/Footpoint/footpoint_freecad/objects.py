@@ -3,7 +3,7 @@
 import FreeCAD
 import Part
 
-from . import measure, weights
+from . import fairing, measure, weights
 
 GROUP = "Footpoint"
 
@@ -125,6 +125,37 @@ class WeightsResult(_Result):
         obj.Met, obj.Report = found.is_met, weights.lines(found)
         obj.Shape = weights.to_freecad(found.shape).toShape()
         obj.Label = f"Weights: {found.met} of {found.met + found.not_met + found.impossible} wishes met"
+
+
+class FairResult(_Result):
+    """A fairer curve or surface, no point of which is farther than the deviation from where it was."""
+
+    def properties(self, obj):
+        for kind, name, text in (("Float", "Deviation", "How far a point may move, in mm"),
+                                 ("Float", "Jerk", "Weight of third derivatives beside the strain"),
+                                 ("Integer", "Keep", "At ends and borders: 0 nothing, 1 points, 2 tangents, 3 curvatures too")):
+            obj.addProperty(f"App::Property{kind}", name, "Footpoint", text)
+        obj.Keep = 2
+        _add(obj, "Float", "Proven", "No point has moved farther than this, in mm, proven")
+        _add(obj, "FloatList", "Energies", "The energy before the first step and after each")
+
+    def execute(self, obj):
+        found = fairing.faired(self.shape(obj), obj.Deviation, obj.Jerk, obj.Keep)
+        obj.Proven, obj.Energies = found.deviation, found.energies.tolist()
+        obj.Shape = fairing.to_freecad(found.shape).toShape()
+        before, after = found.energies[0], found.energies[-1]
+        obj.Label = f"Faired: energy {before:.4g} to {after:.4g}, moved at most {found.deviation:.4g} mm"
+
+
+class InspectResult(_Result):
+    """How an edge or a face bends: ranges that are proven, a comb or marks."""
+
+    def properties(self, obj):
+        _add(obj, "StringList", "Report", "What was found")
+
+    def execute(self, obj):
+        obj.Report, obj.Shape = fairing.inspected(self.shape(obj))
+        obj.Label = f"Inspect: {obj.Report[0]}"
 
 
 def group(document):

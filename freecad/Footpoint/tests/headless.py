@@ -14,7 +14,7 @@ import numpy as np
 import Part
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-from footpoint_freecad import measure, objects, parameters, weights  # noqa: E402
+from footpoint_freecad import fairing, measure, objects, parameters, weights  # noqa: E402
 
 V = FreeCAD.Vector
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -266,6 +266,49 @@ def test_faces_as_trimmed_surfaces():
                 changed = trim.to_nurbs(tolerance=1e-5)
                 assert changed.proven and changed.face.report(3e-5).findings == [], number
     assert count > 50, count
+
+
+def test_fairing_and_inspection():
+    """A wavy edge and a bumpy face are faired within the deviation and follow their source; edges and faces are inspected."""
+    document = FreeCAD.newDocument("Fairing")
+    wavy = document.addObject("Part::Feature", "Wavy")
+    curve = Part.BSplineCurve()
+    curve.buildFromPolesMultsKnots([V(k, 0.1 * k * (20 - k) + 0.05 * (-1) ** k, 0) for k in range(21)], [4] + [1] * 17 + [4], list(range(19)), False, 3)
+    wavy.Shape = curve.toShape()
+    made = objects.make(objects.FairResult, "Fair", wavy, "Edge1", Deviation=0.2, Keep=1)
+    assert 0 < made.Proven <= 0.2 and made.Energies[-1] < 0.9 * made.Energies[0] and list(made.Energies) == sorted(made.Energies, reverse=True)
+    before, after = wavy.Shape.Edges[0], made.Shape.Edges[0]
+    assert max((before.valueAt(u) - after.valueAt(u)).Length for u in np.linspace(0, 18, 200)) <= made.Proven
+    reports = [objects.make(objects.InspectResult, "Inspect", source, "Edge1") for source in (wavy, made)]
+    turns = [int(report.Report[1].split()[-1]) for report in reports]
+    assert turns[0] == 10 and turns[1] == 0 and "proven" in reports[0].Report[0] and len(reports[0].Shape.Edges) > 100, turns
+    made.Deviation = 0.01
+    document.recompute()
+    assert made.Proven <= 0.01
+    bump = document.addObject("Part::Feature", "Bump")
+    surface = Part.BSplineSurface()
+    at = [0, 1 / 3, 1, 2, 3, 4, 5, 17 / 3, 6]  # where parameters are lengths
+    surface.buildFromPolesMultsKnots([[V(at[i], at[j], 0.02 * ((i + j) % 2) * (2 <= i <= 6 and 2 <= j <= 6)) for j in range(9)] for i in range(9)],
+                                     [4] + [1] * 5 + [4], [4] + [1] * 5 + [4], list(range(7)), list(range(7)), False, False, 3, 3)
+    bump.Shape = surface.toShape()
+    flat = objects.make(objects.FairResult, "Flat", bump, "Face1", Deviation=0.05)
+    assert flat.Proven <= 0.05 and flat.Energies[-1] < flat.Energies[0] / 50 and flat.Shape.Faces
+    tube = document.addObject("Part::Feature", "Tube")
+    tube.Shape = Part.makeCylinder(2, 5)
+    found = objects.make(objects.InspectResult, "Inspect", tube, "Face1")
+    low, high = (float(word) for word in found.Report[0].split(": ")[1].split(" mm")[0].split(" to "))
+    assert low <= 2 <= high and high - low < 0.003 and found.Report[0].endswith("proven"), found.Report
+    ring = objects.make(objects.InspectResult, "Inspect", tube, "Edge1")
+    assert ring.Report[1:] == ["inflections: 0", "pieces of monotone curvature: 1"], ring.Report
+    pixels = fairing.picture(tube.Shape.Faces[0], 1, (80, 60)).pixels
+    assert pixels.shape == (60, 80, 3) and len(np.unique(pixels.reshape(-1, 3), axis=0)) > 20
+    for kind, sub, values, text in ((objects.FairResult, "Edge1", {"Deviation": 0.0}, "deviation"), (objects.FairResult, "", {"Deviation": 1.0}, "one edge or one face")):
+        try:
+            objects.make(kind, "Wrong", tube, sub, **values)
+            raise AssertionError("no error")
+        except ValueError as error:
+            assert text in str(error), error
+    FreeCAD.closeDocument(document.Name)
 
 
 def test_refusals():

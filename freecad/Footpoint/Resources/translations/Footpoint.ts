@@ -107,5 +107,45 @@
         <source>Wish</source>
         <translation type="unfinished"></translation>
     </message>
+    <message>
+        <source>Fair curve</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A curve with less bending and fewer inflections beside the selected edge, within a deviation that is proven</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Select an edge.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Fair surface</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A surface with less bending beside that of the selected face, within a deviation that is proven; borders and tangents stay</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Inspect</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Least radius of curvature with a proof; comb and inflections of an edge; zebra, isophotes and colours of curvature of a face</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Select an edge or a face.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Fairing</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Greatest deviation</source>
+        <translation type="unfinished"></translation>
+    </message>
 </context>
 </TS>

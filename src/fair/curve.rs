@@ -1,0 +1,282 @@
+//! Fairing of curves.
+
+use super::length::arc_length;
+use super::rows::{Cell, Functional, curve_energy, curve_rows, hull_deviation, jumps};
+use super::solve::{Problem, State, differences};
+use super::{Faired, Method};
+use crate::bounds::Vector;
+use crate::curve::Curve;
+use crate::error::Error;
+use crate::knots::{Knots, Side};
+
+/// Poles up to which the proof is sharpened by inserted knots.
+const SHARPEN_UP_TO: usize = 400;
+
+/// Relative error of arc lengths that are compared.
+const LENGTH_ERROR: f64 = 1e-9;
+
+/// What a curve is faired for, and what must stay.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CurveFairing {
+    /// How poles are moved.
+    pub method: Method,
+    /// Weight of the integral of |C''|^2, the strain.
+    pub strain: f64,
+    /// Weight of the integral of |C'''|^2, the jerk.
+    pub jerk: f64,
+    /// Weight of the integral of |C - old C|^2.
+    pub distance: f64,
+    /// Derivatives and integrals by the arc length of the curve as it was, not by the parameter: the jerk then is the change
+    /// of the curvature vector along the curve.
+    pub by_length: bool,
+    /// How far a point may move from the point of the same parameter; length, positive.
+    pub deviation: f64,
+    /// How much is kept at the start and at the end: 0 nothing, 1 the point, 2 the first derivative too, 3 the second too.
+    pub ends: [usize; 2],
+    /// Poles that stay.
+    pub fixed: Vec<usize>,
+    /// Parameters whose points stay.
+    pub through: Vec<f64>,
+    /// Knots to be faired by [`Method::KnotRemoval`]; empty: all inner ones.
+    pub knots: Vec<f64>,
+    /// Least and greatest arc length allowed, which the curve has already.
+    pub length: Option<[f64; 2]>,
+    /// Steps at most, each a solution of the equations; local methods take eight a pole at least.
+    pub steps: usize,
+}
+
+impl CurveFairing {
+    /// Least strain within a deviation, points and tangents of the ends kept.
+    pub fn new(deviation: f64) -> Self {
+        Self {
+            method: Method::Energy,
+            strain: 1.0,
+            jerk: 0.0,
+            distance: 0.0,
+            by_length: false,
+            deviation,
+            ends: [2; 2],
+            fixed: Vec::new(),
+            through: Vec::new(),
+            knots: Vec::new(),
+            length: None,
+            steps: 60,
+        }
+    }
+}
+
+/// Refuses a number that is not finite, or less than `least`.
+pub(super) fn check_number(name: &str, x: f64, least: f64) -> Result<(), Error> {
+    if x.is_finite() && x >= least {
+        return Ok(());
+    }
+    Err(Error::InvalidArgument(format!(
+        "{name}: {x} given, a finite number of at least {least} expected"
+    )))
+}
+
+/// Refuses a deviation that is not positive.
+pub(super) fn check_deviation(x: f64) -> Result<(), Error> {
+    if x.is_finite() && x > 0.0 {
+        return Ok(());
+    }
+    Err(Error::InvalidArgument(format!("deviation: {x} given, a positive length expected")))
+}
+
+fn check(curve: &Curve, fairing: &CurveFairing) -> Result<(), Error> {
+    check_deviation(fairing.deviation)?;
+    check_number("strain", fairing.strain, 0.0)?;
+    check_number("jerk", fairing.jerk, 0.0)?;
+    check_number("distance", fairing.distance, 0.0)?;
+    let refuse = |text: String| Err(Error::InvalidArgument(text));
+    if fairing.method != Method::KnotRemoval && fairing.strain + fairing.jerk == 0.0 {
+        return refuse("strain: and jerk are 0, there is no energy".into());
+    }
+    if let Some(k) = (0..2).find(|&k| fairing.ends[k] > 3) {
+        return refuse(format!("ends: entry {k} = {}, 0 to 3 accepted", fairing.ends[k]));
+    }
+    let count = curve.poles().len();
+    if let Some(k) = fairing.fixed.iter().position(|&i| i >= count) {
+        return refuse(format!("fixed: entry {k} is pole {}, there are {count}", fairing.fixed[k]));
+    }
+    for (name, list) in [("through", &fairing.through), ("knots", &fairing.knots)] {
+        if let Some(k) = list.iter().position(|&u| !curve.knots().contains(u)) {
+            return refuse(format!("{name}: entry {k} = {} is outside the domain", list[k]));
+        }
+    }
+    if let Some(k) = fairing.knots.iter().position(|&u| curve.knots().multiplicity(u) == 0) {
+        return refuse(format!("knots: entry {k} = {} is no knot", fairing.knots[k]));
+    }
+    if let Some([low, high]) = fairing.length {
+        check_number("length", low, 0.0)?;
+        check_number("length", high, low)?;
+        let now = arc_length(curve, LENGTH_ERROR);
+        if now < low * (1.0 - LENGTH_ERROR) || now > high * (1.0 + LENGTH_ERROR) {
+            return refuse(format!("length: the curve has {now}, outside [{low}, {high}]"));
+        }
+    }
+    Ok(())
+}
+
+/// The curve with other poles.
+fn moved(curve: &Curve, poles: &[Vector]) -> Curve {
+    let weights = curve.weights().map(Into::into);
+    Curve::from_parts(curve.knots().clone(), poles.into(), weights)
+}
+
+/// The number of poles that repeat at the end of a periodic curve: the last `degree` ones are the first ones, and so are
+/// their weights and steps of knots. 0 when they are not.
+pub(super) fn wrapped(count: usize, degree: usize, same: impl Fn(usize, usize) -> bool) -> usize {
+    let repeats = count > 2 * degree && (0..degree).all(|i| same(i, count - degree + i));
+    if repeats { degree } else { 0 }
+}
+
+/// Whether the knots of an unclamped direction repeat with the length of the domain.
+pub(super) fn repeats(knots: &Knots) -> bool {
+    let (t, p, n) = (knots.values(), knots.degree(), knots.pole_count());
+    let period = t[n] - t[p];
+    (0..=2 * p).all(|i| (t[n - p + i] - t[i] - period).abs() <= 1e-12 * period.abs())
+}
+
+/// The unknown of each pole, their number, and the linear forms that must vanish.
+fn freedom(curve: &Curve, fairing: &CurveFairing) -> (Vec<Option<usize>>, usize, Vec<Cell>) {
+    let (count, p) = (curve.poles().len(), curve.degree());
+    let weight = |i: usize| curve.weights().map_or(1.0, |w| w[i]);
+    let same = |i: usize, j: usize| curve.poles()[i] == curve.poles()[j] && weight(i) == weight(j);
+    let wrap = if repeats(curve.knots()) { wrapped(count, p, same) } else { 0 };
+    let mut fixed = vec![false; count];
+    let mut kept = Vec::new();
+    fairing.fixed.iter().for_each(|&i| fixed[i] = true);
+    let (start, end) = curve.domain();
+    for (k, u) in [start, end].into_iter().enumerate() {
+        if wrap > 0 || fairing.ends[k] == 0 {
+            continue;
+        }
+        let side = if k == 0 { Side::Above } else { Side::Below };
+        let order = fairing.ends[k] - 1;
+        let (first, rows) = curve_rows(curve, u, side, order);
+        if curve.knots().multiplicity(u) > p {
+            let poles = 0..=order.min(p);
+            poles.for_each(|i| fixed[if k == 0 { i } else { count - 1 - i }] = true);
+        } else {
+            kept.extend(
+                rows.chunks_exact(p + 1).take(p.min(order) + 1).map(|row| cell(first, row)),
+            );
+        }
+    }
+    for &u in &fairing.through {
+        let (first, rows) = curve_rows(curve, u, Side::Above, 0);
+        if fairing.method == Method::Energy {
+            kept.push(cell(first, &rows));
+        } else {
+            let pulls = (0..=p).filter(|&i| rows[i] != 0.0);
+            pulls.for_each(|i| fixed[first + i] = true);
+        }
+    }
+    if wrap > 0 {
+        (0..wrap).for_each(|i| fixed[i] = fixed[i] || fixed[count - wrap + i]);
+    }
+    let mut unknowns = vec![None; count];
+    let mut next = 0;
+    for i in 0..count - wrap {
+        if !fixed[i] {
+            unknowns[i] = Some(next);
+            next += 1;
+        }
+    }
+    for i in 0..wrap {
+        unknowns[count - wrap + i] = unknowns[i];
+    }
+    // A form over poles that stay says nothing; two equal ones say it once.
+    kept.retain(|cell: &Cell| cell.poles.iter().any(|&i| unknowns[i].is_some()));
+    (unknowns, next, kept)
+}
+
+fn cell(first: usize, row: &[f64]) -> Cell {
+    Cell { poles: (first..first + row.len()).collect(), rows: row.to_vec() }
+}
+
+/// How far no point of `new` has moved, proven: the hull of the difference after each span has been halved twice.
+fn proven_deviation(curve: &Curve, new: &[Vector]) -> Result<f64, Error> {
+    let plain = hull_deviation(new, curve.poles());
+    if plain == 0.0 || curve.poles().len() > SHARPEN_UP_TO {
+        return Ok(plain);
+    }
+    let difference = moved(curve, &differences(new, curve.poles()));
+    let difference = difference.refine(&quarters(difference.knots()))?;
+    let zero = vec![[0.0; 3]; difference.poles().len()];
+    let sharp = hull_deviation(difference.poles(), &zero);
+    // Inserting rounds by some ulps of the differences, each insertion once.
+    let rounding = 1e-12 * plain + size_rounding(curve);
+    Ok(plain.min(sharp + rounding))
+}
+
+/// The places that cut every span in four, but for those that are knots because a span is that short.
+pub(super) fn quarters(knots: &Knots) -> Vec<f64> {
+    let t = knots.values();
+    let cut = |i: usize| [0.25, 0.5, 0.75].map(|x| t[i] + x * (t[i + 1] - t[i]));
+    let mut places: Vec<f64> = knots.spans().flat_map(cut).collect();
+    places.dedup();
+    places.retain(|&u| knots.multiplicity(u) == 0);
+    places
+}
+
+/// Rounding of differences of poles.
+fn size_rounding(curve: &Curve) -> f64 {
+    let most = curve.poles().iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
+    f64::EPSILON * most
+}
+
+/// A fairer curve on the same knots and weights, within the deviation.
+///
+/// Cost: each step solves equations with one unknown a pole and a band as wide as the degree.
+///
+/// # Errors
+/// What is asked makes no sense (named); memory that could not be had; [`Error::Cancelled`].
+pub fn fair_curve(
+    curve: &Curve,
+    fairing: &CurveFairing,
+    poll: &mut dyn FnMut() -> bool,
+) -> Result<Faired<Curve>, Error> {
+    check(curve, fairing)?;
+    let (unknowns, count, kept) = freedom(curve, fairing);
+    let weights = [0.0, 0.0, fairing.strain, fairing.jerk];
+    let lines: Vec<(f64, Cell)> = jumps(curve);
+    let energy = match fairing.method {
+        Method::KnotRemoval => Functional(lines.iter().map(|line| line.1.clone()).collect()),
+        _ => curve_energy(curve, weights, fairing.by_length),
+    };
+    let distance = if fairing.method == Method::Energy && fairing.distance > 0.0 {
+        curve_energy(curve, [fairing.distance, 0.0, 0.0, 0.0], fairing.by_length)
+    } else {
+        Functional::default()
+    };
+    let allowed = |poles: &[Vector]| {
+        fairing.length.is_none_or(|[low, high]| {
+            let length = arc_length(&moved(curve, poles), LENGTH_ERROR);
+            (low..=high).contains(&length)
+        })
+    };
+    let chosen: Vec<Vec<usize>> = (0..lines.len())
+        .filter(|&k| fairing.knots.is_empty() || fairing.knots.contains(&lines[k].0))
+        .map(|k| vec![k])
+        .collect();
+    let mut state = State::new(curve.poles(), energy.value(curve.poles()));
+    let radius = fairing.deviation * (1.0 - 1e-9) - size_rounding(curve);
+    if radius <= 0.0 {
+        let text = "deviation: is below the rounding of the poles".to_string();
+        return Err(Error::InvalidArgument(text));
+    }
+    let mut problem =
+        Problem { energy, distance, unknowns, count, kept, radius, allowed: &allowed, poll };
+    let mut run = |problem: &mut Problem, state: &mut State| match fairing.method {
+        Method::Energy => problem.run(state, fairing.steps),
+        Method::Local => problem.run_local(state, fairing.steps),
+        Method::KnotRemoval => problem.run_knots(state, &chosen, fairing.steps),
+    };
+    let proven = |poles: &[Vector]| proven_deviation(curve, poles);
+    let (converged, deviation) =
+        problem.in_rounds(&mut state, fairing.deviation, &mut run, &proven)?;
+    let shape = moved(curve, &state.poles);
+    Ok(Faired { shape, energies: state.energies, deviation, converged })
+}

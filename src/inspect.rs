@@ -1,0 +1,39 @@
+//! Inspection: how a curve bends, how a surface bends, how two shapes meet and how far they are apart.
+//!
+//! Numbers that are called bounds are proven, rounding included: see [`surface_range`], [`hausdorff`]. The others are
+//! evaluations.
+//!
+//! Reference: Hagen, Hahmann, Schreiber, *Visualization and computation of curvature behaviour of freeform curves and
+//! surfaces*, 1995.
+
+mod interval;
+
+mod slope;
+
+mod polynomial;
+
+mod cell;
+
+mod constant;
+
+mod ranges;
+
+mod bend;
+
+mod umbilic;
+
+mod picture;
+
+mod hausdorff;
+
+mod continuity;
+
+pub use bend::{
+    Inflection, Monotone, Tooth, Trend, comb, inflections, monotone_pieces, plane_normal, tooth,
+    turn_count,
+};
+pub use continuity::{Continuity, Measured, continuity};
+pub use hausdorff::{Directed, Hausdorff, HausdorffOptions, Shape, hausdorff};
+pub use picture::{Pattern, Picture, PictureOptions, picture};
+pub use ranges::{Quantity, Range, RangeOptions, curve_range, surface_range};
+pub use umbilic::{Curvatures, Umbilic, curvatures, umbilics};

@@ -1,0 +1,189 @@
+//! Certified ranges of curvatures: closed forms, and dense sampling of all cases.
+
+#[path = "cases/mod.rs"]
+#[allow(dead_code, reason = "shapes only, no queries")]
+mod cases;
+mod revolved;
+mod shapes;
+
+use cases::Shape;
+use footpoint::curve::Curve;
+use footpoint::index::{IndexedCurve, IndexedSurface};
+use footpoint::inspect::{Quantity, Range, RangeOptions, curve_range, surface_range};
+use footpoint::surface::Surface;
+use revolved::{circle, ellipsoid, revolved};
+use shapes::{Vector, cross, dot, norm};
+
+fn range(surface: &IndexedSurface, quantity: Quantity, domain: Option<[f64; 4]>) -> Range {
+    let options = RangeOptions { domain, ..RangeOptions::default() };
+    surface_range(surface, quantity, &options, &mut || false).unwrap()
+}
+
+/// The bounds hold `least` and `greatest` and are near to each other.
+fn assert_range(range: &Range, least: f64, greatest: f64, size: f64) {
+    let gap = 1.01e-3 * size;
+    let slack = 1e-12 * size;
+    assert!(range.proven, "{range:?}");
+    for (bounds, value) in [(range.least, least), (range.greatest, greatest)] {
+        assert!(bounds[0] <= value + slack && value <= bounds[1] + slack, "{value} {range:?}");
+        assert!(bounds[1] - bounds[0] <= gap, "{value} {range:?}");
+    }
+}
+
+#[test]
+fn a_cylinder_bends_as_its_radius_says() {
+    let radius = 2.5;
+    let profile = [([radius, 0.0, 0.0], 1.0), ([radius, 0.0, 7.0], 1.0)];
+    let surface = IndexedSurface::new(revolved(&[0., 0., 1., 1.], 1, &profile));
+    let sharpest = range(&surface, Quantity::Sharpest, None);
+    assert_range(&sharpest, 1.0 / radius, 1.0 / radius, 1.0 / radius);
+    let gaussian = range(&surface, Quantity::Gaussian, None);
+    assert!(gaussian.proven && gaussian.least[0] <= 0.0 && gaussian.greatest[1] >= 0.0);
+    let greater = range(&surface, Quantity::Greater, None);
+    let less = range(&surface, Quantity::Less, None);
+    let outer = greater.greatest[1] - less.least[0];
+    assert!((outer - 1.0 / radius).abs() <= 3e-3 / radius, "{greater:?} {less:?}");
+}
+
+#[test]
+fn a_torus_has_its_two_radii_and_its_inner_equator() {
+    let (big, small) = (3.0, 1.25);
+    let (knots, profile) = circle([big, 0.0, 0.0], small);
+    let surface = IndexedSurface::new(revolved(&knots, 2, &profile));
+    // An eighth of the turn is enough: the others are alike.
+    let part = Some([0.0, 0.5, 0.0, 4.0]);
+    let sharpest = range(&surface, Quantity::Sharpest, part);
+    assert_range(&sharpest, 1.0 / small, 1.0 / small, 1.0 / small);
+    let [inner, outer] = [-1.0 / (big - small), 1.0 / (big + small)];
+    // The normal may point either way.
+    let less = range(&surface, Quantity::Less, part);
+    let greater = range(&surface, Quantity::Greater, part);
+    let (along, flip) = if greater.greatest[1] > 0.7 { (less, 1.0) } else { (greater, -1.0) };
+    let [low, high] = if flip > 0.0 { [inner, outer] } else { [-outer, -inner] };
+    assert_range(&along, low, high, 1.0 / small);
+    let gaussian = range(&surface, Quantity::Gaussian, part);
+    assert_range(&gaussian, inner / small, outer / small, 1.0);
+}
+
+#[test]
+fn an_ellipsoid_bends_least_and_most_at_the_ends_of_its_axes() {
+    let [a, b, c] = [3.0, 2.0, 1.0];
+    // The longest axis away from the collapsed edges, which are left out.
+    let surface = IndexedSurface::new(ellipsoid([a, b, c]));
+    let [u0, u1, v0, v1] = surface.surface().domain();
+    let inset = 0.05 * (v1 - v0);
+    let domain = Some([u0, u1, v0 + inset, v1 - inset]);
+    let sharpest = range(&surface, Quantity::Sharpest, domain);
+    assert!(sharpest.proven, "{sharpest:?}");
+    let most = a / (c * c);
+    assert!(sharpest.greatest[0] <= most * (1.0 + 1e-12) && most <= sharpest.greatest[1]);
+    assert!(sharpest.greatest[1] - sharpest.greatest[0] <= 1.01e-3 * most, "{sharpest:?}");
+    let gaussian = range(&surface, Quantity::Gaussian, domain);
+    let most = (a / (b * c)).powi(2);
+    assert!(gaussian.greatest[0] <= most * (1.0 + 1e-12) && most <= gaussian.greatest[1]);
+    assert!(gaussian.greatest[1] - gaussian.greatest[0] <= 1.01e-3 * most, "{gaussian:?}");
+}
+
+#[test]
+fn a_sphere_is_excluded_beside_its_poles_only() {
+    let surface = IndexedSurface::new(ellipsoid([2.0; 3]));
+    let options = RangeOptions { budget: 20_000, ..RangeOptions::default() };
+    let found = surface_range(&surface, Quantity::Sharpest, &options, &mut || false);
+    let sharpest = found.unwrap();
+    let [_, _, v0, v1] = surface.surface().domain();
+    assert!(!sharpest.proven && !sharpest.excluded.is_empty());
+    for area in &sharpest.excluded {
+        let near = |v: f64| (v - v0).abs() < 2e-3 * (v1 - v0) || (v - v1).abs() < 2e-3 * (v1 - v0);
+        assert!(near(area[2]) && near(area[3]), "{area:?}");
+    }
+    assert!(sharpest.greatest[0] <= 0.5 * (1.0 + 1e-12) && sharpest.greatest[1] >= 0.5);
+    assert!(sharpest.least[0] <= 0.5 && sharpest.least[1] >= 0.5 * (1.0 - 1e-12));
+}
+
+#[test]
+fn an_ellipse_bends_between_b_over_a_squared_and_a_over_b_squared() {
+    let (knots, poles) = circle([0.0; 3], 1.0);
+    let (a, b) = (3.0, 2.0);
+    let moved: Vec<Vector> = poles.iter().map(|(p, _)| [a * p[0], 5.0, b * p[2]]).collect();
+    let weights: Vec<f64> = poles.iter().map(|p| p.1).collect();
+    let curve = IndexedCurve::new(Curve::new(&knots, 2, &moved, Some(&weights)).unwrap());
+    let found = curve_range(&curve, &RangeOptions::default(), &mut || false).unwrap();
+    assert_range(&found, b / (a * a), a / (b * b), a / (b * b));
+}
+
+/// Principal curvatures from second derivatives, when the surface is regular there.
+fn principal(surface: &Surface, u: f64, v: f64) -> Option<[f64; 2]> {
+    let mut d = [[0.0; 3]; 6];
+    surface.partials(u, v, 2, &mut d);
+    let n = cross(d[1], d[2]);
+    let (e, f, g) = (dot(d[1], d[1]), dot(d[1], d[2]), dot(d[2], d[2]));
+    let area = norm(n);
+    if area <= 1e-6 * (e * g).sqrt() || area == 0.0 {
+        return None;
+    }
+    let [l, m, q] = [3, 4, 5].map(|k| dot(n, d[k]) / area);
+    let gaussian = (l * q - m * m) / (area * area);
+    let mean = (e * q - 2.0 * f * m + g * l) / (2.0 * area * area);
+    let root = (mean * mean - gaussian).max(0.0).sqrt();
+    Some([mean + root, mean - root])
+}
+
+#[test]
+fn bounds_hold_dense_samples_of_every_case() {
+    let (mut proven, mut faces, mut slowest) = (0, 0, 0.0f64);
+    for folder in cases::folders() {
+        let case = cases::read(&folder);
+        let Shape::Surface(indexed) = &case.shape else { continue };
+        let long = std::env::var_os("FOOTPOINT_LIST").is_some();
+        // Products of high degrees and thousands of patches take too long for every day.
+        let degree = indexed.surface().knots_u().degree().max(indexed.surface().knots_v().degree());
+        if !long && (degree > 5 || indexed.surface().poles().len() > 1_000) {
+            continue;
+        }
+        indexed.prepare(&mut || false).unwrap();
+        let options =
+            RangeOptions { budget: if long { 20_000 } else { 300 }, ..RangeOptions::default() };
+        let start = std::time::Instant::now();
+        let found = surface_range(indexed, Quantity::Sharpest, &options, &mut || false).unwrap();
+        let time = start.elapsed().as_secs_f64();
+        slowest = slowest.max(time);
+        faces += 1;
+        proven += usize::from(found.proven);
+        if std::env::var_os("FOOTPOINT_LIST").is_some() {
+            let gap = (found.greatest[1] - found.greatest[0]) / found.greatest[1];
+            println!(
+                "{:28} {:9.3} ms {:6} boxes  radius {:.6e} gap {:.1e} excluded {} {}",
+                case.name,
+                time * 1e3,
+                found.boxes,
+                1.0 / found.greatest[1],
+                gap,
+                found.excluded.len(),
+                found.proven
+            );
+        }
+        let surface = indexed.surface();
+        let [u0, u1, v0, v1] = surface.domain();
+        for i in 0..=30 {
+            for j in 0..=30 {
+                let u = (u0 + (u1 - u0) * (i as f64 + 0.5) / 31.0).min(u1);
+                let v = (v0 + (v1 - v0) * (j as f64 + 0.5) / 31.0).min(v1);
+                let inside = |a: &[f64; 4]| a[0] <= u && u <= a[1] && a[2] <= v && v <= a[3];
+                if found.excluded.iter().any(inside) {
+                    continue;
+                }
+                let Some([greater, less]) = principal(surface, u, v) else { continue };
+                let sharp = greater.abs().max(less.abs());
+                let slack = 1e-6 * sharp + 1e-9 / case.diagonal;
+                assert!(
+                    sharp <= found.greatest[1] + slack,
+                    "{} {u} {v} {sharp} {found:?}",
+                    case.name
+                );
+                assert!(sharp >= found.least[0] - slack, "{} {u} {v} {sharp} {found:?}", case.name);
+            }
+        }
+    }
+    println!("{proven} of {faces} proven, slowest {slowest:.3} s");
+    assert!(10 * proven > faces, "{proven} of {faces}");
+}
