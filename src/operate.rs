@@ -35,8 +35,32 @@ mod reparametrisation;
 
 mod compatible;
 
+mod removal;
+
+mod least_squares;
+
+mod reduction;
+
+mod periodicity;
+
+mod joining;
+
+mod transformation;
+
+mod derivation;
+
+mod length;
+
+mod power;
+
+mod continuity;
+
 pub use compatible::{compatible_curves, compatible_surfaces};
+pub use continuity::{Crease, Frame, Joint};
 pub use difference::Difference;
+pub use joining::{join_curves, join_surfaces};
+pub use length::{ArcLength, Estimate};
+pub use power::{Coefficient, PowerCurve, PowerSurface};
 
 use map::Map;
 

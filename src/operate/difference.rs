@@ -254,7 +254,12 @@ impl Search {
 }
 
 /// Splits a net at the middle of direction `axis`: `before` becomes the first half.
-fn halve(before: &mut [Weighted], behind: &mut [Weighted], degree: [usize; 2], axis: usize) {
+pub(super) fn halve(
+    before: &mut [Weighted],
+    behind: &mut [Weighted],
+    degree: [usize; 2],
+    axis: usize,
+) {
     let width = degree[1] + 1;
     let (step, strands, p) =
         if axis == 0 { (width, 0..width, degree[0]) } else { (1, 0..degree[0] + 1, degree[1]) };
@@ -271,7 +276,7 @@ fn halve(before: &mut [Weighted], behind: &mut [Weighted], degree: [usize; 2], a
 }
 
 /// The longest difference of poles, and what weights that are not proportional may add.
-fn direct(nets: &[Vec<Weighted>; 2]) -> f64 {
+pub(super) fn direct(nets: &[Vec<Weighted>; 2]) -> f64 {
     let (mut longest, mut spread) = (0.0_f64, 0.0_f64);
     let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
     for (a, b) in nets[0].iter().zip(&nets[1]) {
