@@ -64,6 +64,15 @@ impl Curve {
         Ok(out)
     }
 
+    /// What derivatives can be on some spans.
+    fn size(&self, spans: [usize; 2]) -> Size {
+        let degree = self.degree();
+        let mut bounds = Aabb::EMPTY;
+        let poles = spans.into_iter().flat_map(|span| &self.poles()[span - degree..=span]);
+        poles.for_each(|pole| bounds.include(*pole));
+        Size { diagonal: bounds.diagonal(), step: step(self.knots(), spans), degree }
+    }
+
     fn joint(&self, [before, behind]: [f64; 2], tolerance: f64) -> Joint {
         let p = self.degree();
         let mut sides = [vec![[0.0; 3]; p.max(2) + 1], vec![[0.0; 3]; p.max(2) + 1]];
@@ -72,10 +81,7 @@ impl Curve {
         let [a, b] = &sides;
         let jumps: Vec<f64> = (0..=p).map(|k| norm(sub(a[k], b[k]))).collect();
         let spans = [self.knots().span_on(before, Side::Below), self.knots().span(behind)];
-        let poles = spans.map(|span| &self.poles()[span - p..=span]);
-        let mut bounds = Aabb::EMPTY;
-        poles.into_iter().flatten().for_each(|pole| bounds.include(*pole));
-        let size = Size { diagonal: bounds.diagonal(), step: step(self.knots(), spans), degree: p };
+        let size = self.size(spans);
         let [t, s] = [a[1], b[1]];
         let (tangent_angle, curvature_jump) = match (norm(t), norm(s)) {
             (x, y) if x <= tolerance * size.of(1) || y <= tolerance * size.of(1) => {
@@ -147,7 +153,7 @@ struct Size {
 
 impl Size {
     fn of(&self, order: usize) -> f64 {
-        let falling = (0..order).map(|k| (self.degree - k) as f64);
+        let falling = (0..order).map(|k| self.degree.saturating_sub(k).max(1) as f64);
         falling.fold(self.diagonal, |size, factor| size * factor / self.step)
     }
 
@@ -220,6 +226,9 @@ fn crease(knots: &Knots, net: &[[f64; 4]], places: [f64; 2], tolerance: f64) -> 
     Crease { value: places[0], multiplicity, order: size.order(&jumps, tolerance), jumps }
 }
 
+/// Second derivatives below this share of what they can be are rounding.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 /// The moving frame of a curve and how it turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
@@ -251,12 +260,18 @@ impl Curve {
         let mut d = [[0.0; 3]; 4];
         self.derivatives_on(u, side, 3, &mut d);
         let (speed, across) = (norm(d[1]), cross(d[1], d[2]));
+        let span = self.knots().span_on(u, side);
         let area = norm(across);
-        let unit =
-            |v: Vector, length: f64| v.map(|x| if length > 0.0 { x / length } else { f64::NAN });
-        let (tangent, binormal) = (unit(d[1], speed), unit(across, area));
+        // What rounding of the second derivative leaves has no direction.
+        let is_straight = area <= ROUNDING * speed * self.size([span; 2]).of(2);
+        let unit = |v: Vector, length: f64| v.map(|x| x / length);
         let curvature = if speed > 0.0 { area / speed / speed / speed } else { f64::NAN };
-        let torsion = if area > 0.0 { dot(across, d[3]) / area / area } else { f64::NAN };
+        let tangent = if speed > 0.0 { unit(d[1], speed) } else { [f64::NAN; 3] };
+        let (binormal, torsion) = if is_straight {
+            ([f64::NAN; 3], f64::NAN)
+        } else {
+            (unit(across, area), dot(across, d[3]) / area / area)
+        };
         let normal = cross(binormal, tangent);
         Ok(Frame { point: d[0], speed, tangent, normal, binormal, curvature, torsion })
     }

@@ -6,12 +6,12 @@
 
 use super::compatible::along;
 use super::reparametrisation::{rational, rational_surface};
-use super::{Bounded, Direction, Surface};
+use super::{Bounded, Direction, Surface, check_tolerance};
 use crate::bounds::{norm, sub};
 use crate::curve::Curve;
 use crate::curve::insertion::{Weighted, checked, transposed};
 use crate::error::Error;
-use crate::knots::{Knots, MAX_MAGNITUDE};
+use crate::knots::Knots;
 
 /// Weights along a common edge agree up to a factor and this share.
 const SAME_WEIGHT: f64 = 1e-12;
@@ -115,10 +115,7 @@ fn check(count: usize, name: &str, tolerance: f64) -> Result<(), Error> {
     if count == 0 {
         return Err(Error::InvalidArgument(format!("{name}: none given")));
     }
-    if tolerance >= 0.0 && tolerance <= MAX_MAGNITUDE {
-        return Ok(());
-    }
-    Err(Error::InvalidArgument(format!("tolerance: {tolerance} is negative or not finite")))
+    check_tolerance(tolerance)
 }
 
 fn check_gap(name: &str, i: usize, gap: f64, tolerance: f64) -> Result<(), Error> {

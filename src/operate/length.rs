@@ -13,6 +13,7 @@
 //! References: Trefethen, *Approximation Theory and Approximation Practice*, theorem 19.3 (the error of Gauss); Farin, *Curves and
 //! Surfaces for CAGD* (polygons of rational pieces with positive weights are longer than the curve).
 
+use super::check_tolerance;
 use super::difference::halve;
 use super::pieces::{Cut, breaks};
 use crate::bezier::binomial;
@@ -20,7 +21,6 @@ use crate::bounds::{Aabb, HALF_ULP, Vector, norm, scaled, sub};
 use crate::curve::Curve;
 use crate::curve::insertion::Weighted;
 use crate::error::Error;
-use crate::knots::MAX_MAGNITUDE;
 
 /// Points of the quadrature: on an ellipse of 2 the error is 2^-38 of the length, on one of 3 beyond the doubles.
 const POINTS: usize = 20;
@@ -53,7 +53,9 @@ pub struct ArcLength {
 
 #[derive(Clone, Debug)]
 struct Piece {
-    domain: [f64; 2],
+    /// The span that it is a part of, and which part: binary fractions, exact.
+    span: [f64; 2],
+    range: [f64; 2],
     speed: Speed,
     /// Length before it, and its own.
     before: Estimate,
@@ -66,10 +68,7 @@ impl Curve {
     /// # Errors
     /// A tolerance that is negative or not finite; memory that could not be had.
     pub fn arc_length(&self, tolerance: f64) -> Result<ArcLength, Error> {
-        if !(tolerance >= 0.0 && tolerance <= MAX_MAGNITUDE) {
-            let text = format!("tolerance: {tolerance} is negative or not finite");
-            return Err(Error::InvalidArgument(text));
-        }
+        check_tolerance(tolerance)?;
         let (cut, p) = (Cut::new(self.knots(), breaks(self.knots()))?, self.degree());
         let mut strand = self.strand()?;
         let centre = strand[strand.len() / 2].pole;
@@ -107,11 +106,16 @@ impl ArcLength {
         if !(self.domain.0 <= u && u <= self.domain.1) {
             return Err(Error::InvalidArgument(format!("u: {u} is outside the domain")));
         }
-        let i = self.pieces.partition_point(|piece| piece.domain[0] <= u).max(1) - 1;
+        let share = |piece: &Piece| (u - piece.span[0]) / (piece.span[1] - piece.span[0]);
+        let begins = |piece: &Piece| piece.span[0] < u && piece.range[0] <= share(piece);
+        let i = self.pieces.partition_point(begins).max(1) - 1;
         let piece = &self.pieces[i];
-        let [a, b] = piece.domain;
-        let share = ((u - a) / (b - a)).clamp(0.0, 1.0);
-        Ok(sum(piece.before, piece.to(share, &self.nodes)))
+        let [a, b] = piece.range;
+        let local = ((share(piece) - a) / (b - a)).clamp(0.0, 1.0);
+        let mut own = piece.to(local, &self.nodes);
+        // The share is known to two roundings of the span.
+        own.error += 4.0 * HALF_ULP * piece.speed.most / (b - a);
+        Ok(sum(piece.before, own))
     }
 
     /// A parameter to which the length is `length`; the error is a length: how far the true length to there may be from what
@@ -128,11 +132,12 @@ impl ArcLength {
         let i = self.pieces.partition_point(|piece| piece.before.value <= length).max(1) - 1;
         let piece = &self.pieces[i];
         let wanted = length - piece.before.value;
-        let share = piece.share(wanted, &self.nodes);
-        let [a, b] = piece.domain;
-        let u = (a + (b - a) * share).clamp(a, b);
-        let found = piece.to(((u - a) / (b - a)).clamp(0.0, 1.0), &self.nodes);
-        let error = (found.value - wanted).abs() + found.error + piece.before.error;
+        let [a, b] = piece.range;
+        let share = a + (b - a) * piece.share(wanted, &self.nodes);
+        let [start, end] = piece.span;
+        let u = (start + (end - start) * share).clamp(start, end);
+        let found = self.at(u)?;
+        let error = (found.value - length).abs() + found.error;
         Ok(Estimate { value: u, error: error * (1.0 + 4.0 * HALF_ULP) })
     }
 
@@ -143,14 +148,14 @@ impl ArcLength {
         let is_fine = own.error <= allowed + 4.0 * speed.rounding;
         if is_fine || part.halvings >= MOST_HALVINGS {
             let before = self.total();
-            self.pieces.push(Piece { domain: part.domain, speed, before, own });
+            self.pieces.push(Piece { span: part.span, range: part.range, speed, before, own });
             return;
         }
         let mut behind = part.clone();
         let p = part.net.len() - 1;
         halve(&mut part.net, &mut behind.net, [p, 0], 0);
-        let middle = 0.5 * part.domain[0] + 0.5 * part.domain[1];
-        (part.domain[1], behind.domain[0]) = (middle, middle);
+        let middle = 0.5 * (part.range[0] + part.range[1]);
+        (part.range[1], behind.range[0]) = (middle, middle);
         for mut half in [part, behind] {
             half.halvings += 1;
             half.recentre();
@@ -171,7 +176,8 @@ fn sum(a: Estimate, b: Estimate) -> Estimate {
 #[derive(Clone)]
 struct Part {
     net: Vec<Weighted>,
-    domain: [f64; 2],
+    span: [f64; 2],
+    range: [f64; 2],
     halvings: usize,
     is_rational: bool,
     /// What rounding of the poles may do to the length.
@@ -185,8 +191,8 @@ impl Part {
     fn new(net: &[Weighted], ends: &[f64], is_rational: bool) -> Self {
         let far = net.iter().flat_map(|point| point.pole).fold(0.0, |far: f64, x| far.max(x.abs()));
         let (net, p) = (net.to_vec(), (net.len() - 1) as f64);
-        let domain = [ends[0], ends[1]];
-        let mut part = Self { net, domain, halvings: 0, is_rational, rounding: 0.0 };
+        let (span, range) = ([ends[0], ends[1]], [0.0, 1.0]);
+        let mut part = Self { net, span, range, halvings: 0, is_rational, rounding: 0.0 };
         let pole = HALF_ULP * ((18.0 * p + 27.0) * part.diagonal() + 2.0 * far);
         part.rounding = 2.0 * p * pole * part.ratio();
         part.recentre();
@@ -229,6 +235,8 @@ struct Speed {
     rounding: f64,
     chord: f64,
     polygon: f64,
+    /// A bound of the speed.
+    most: f64,
 }
 
 impl Speed {
@@ -241,7 +249,10 @@ impl Speed {
         let steps = (100 + 20 * part.halvings) as f64 * (p + 2) as f64;
         let rounding = part.rounding + HALF_ULP * steps * polygon * part.ratio();
         let quadrature = quadrature_error(&vectors, &weights);
-        Self { vectors, weights, quadrature, rounding, chord, polygon }
+        let longest = vectors.iter().fold(0.0, |most: f64, v| most.max(norm(*v)));
+        let least = weights.iter().fold(f64::INFINITY, |least: f64, w| least.min(*w));
+        let most = longest / (least * least);
+        Self { vectors, weights, quadrature, rounding, chord, polygon, most }
     }
 
     fn at(&self, t: f64) -> f64 {

@@ -12,7 +12,7 @@
 //!
 //! Reference: Piegl, Tiller, *The NURBS Book*, 2nd ed., section 12.2.
 
-use super::{Bounded, Direction, Surface};
+use super::{Bounded, Direction, Surface, check_tolerance};
 use crate::curve::Curve;
 use crate::curve::insertion::{Strands, Weighted, checked};
 use crate::error::Error;
@@ -88,13 +88,6 @@ impl Surface {
         let (start, end) = self.knots(direction).domain();
         self.part_along(direction, start, end)
     }
-}
-
-fn check_tolerance(tolerance: f64) -> Result<(), Error> {
-    if tolerance >= 0.0 && tolerance <= MAX_MAGNITUDE {
-        return Ok(());
-    }
-    Err(Error::InvalidArgument(format!("tolerance: {tolerance} is negative or not finite")))
 }
 
 fn not_closed(suffix: &str) -> Error {

@@ -121,7 +121,7 @@ fn check(coefficients: &[Coefficient], degrees: &[(&str, usize)]) -> Result<(), 
         let text = format!("coefficients: {found} given, {expected} expected");
         return Err(Error::InvalidArgument(text));
     }
-    let bad = |a: &Coefficient| a.iter().any(|x| !(x.abs() <= MAX_MAGNITUDE));
+    let bad = |a: &Coefficient| !a.iter().all(|x| x.abs() <= MAX_MAGNITUDE);
     match coefficients.iter().position(bad) {
         Some(i) => Err(Error::InvalidArgument(format!(
             "coefficients: coefficient {i} is not finite or beyond 1e100"

@@ -16,7 +16,7 @@
 //! curves*, 1995 (the least greatest residual).
 
 use super::difference::direct;
-use super::{Bounded, Direction, Surface};
+use super::{Bounded, Direction, Surface, check_tolerance};
 use crate::curve::Curve;
 use crate::curve::insertion::{Weighted, checked, mix, room};
 use crate::error::Error;
@@ -101,13 +101,6 @@ impl Surface {
 
 /// The sum of the errors of the steps bounds the error of all but for rounding, so that the first trial holds unless the tolerance is near rounding.
 const MOST_TRIALS: usize = 4;
-
-fn check_tolerance(tolerance: f64) -> Result<(), Error> {
-    if tolerance >= 0.0 && tolerance <= MAX_MAGNITUDE {
-        return Ok(());
-    }
-    Err(Error::InvalidArgument(format!("tolerance: {tolerance} is negative or not finite")))
-}
 
 /// The knots and strands without `times` copies of `u`; `name` is the parameter's name in an error.
 fn removed(
