@@ -78,9 +78,12 @@ fn jumps(name: &str, u: f64) -> Error {
 
 /// The derivative of polynomial strands.
 fn lowered(knots: &Knots, poles: &[Vector], name: &str) -> Result<(Knots, Vec<Vector>), Error> {
-    let (p, t, count) = (knots.degree(), knots.values(), knots.pole_count());
+    // Without the poles that act nowhere, which degree - 1 may have no room for.
+    let (p, active) = (knots.degree(), knots.active_poles());
+    let (t, count) = (&knots.values()[active.start..active.end + p + 1], active.len());
     let mut strands: Vec<Vec<Vector>> = Vec::new();
-    for strand in poles.chunks_exact(count) {
+    for strand in poles.chunks_exact(knots.pole_count()) {
+        let strand = &strand[active.clone()];
         let slope =
             |i: usize| scaled(sub(strand[i + 1], strand[i]), p as f64 / (t[i + p + 1] - t[i + 1]));
         strands.push((0..count - 1).map(slope).collect());

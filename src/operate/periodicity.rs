@@ -171,7 +171,8 @@ fn wrapped(knots: &Knots, strands: &[Weighted], copies: usize) -> Result<Option<
     let lowest = copies as isize - 1 - p as isize;
     let mut values: Vec<f64> = (lowest..=(n + p) as isize).map(knot).collect();
     let count = n + p - copies + 1;
-    values[count] = end;
+    // Copies of the seam at the end are the end bit for bit, whatever rounding a turn brings.
+    values[count..count + copies].fill(end);
     let (Ok(new_knots), shared) = (checked(&values, p), p - copies) else { return Ok(None) };
     let mut out = Vec::with_capacity(strands.len() / old_count * count);
     for strand in strands.chunks_exact(old_count) {
