@@ -5,6 +5,8 @@
 
 pub mod error;
 
+pub mod portable;
+
 pub mod knots;
 
 pub mod basis;
@@ -54,5 +56,15 @@ pub mod batch;
 pub mod weights;
 
 pub mod operate;
+
+pub mod fit;
+
+pub mod elementary;
+
+pub mod transform;
+
+pub mod pcurve;
+
+pub mod trim;
 
 mod ffi;
