@@ -13,6 +13,7 @@
 //!                   -> normal, unwrap                          normals.rs, path.rs
 //!                   -> scene                                   scene.rs, scene_query.rs
 //!                   -> weights                                 weights.rs, weights_records.rs, weights_report.rs, weights_edit.rs
+//!                   -> operate                                 operate_curve.rs, operate_surface.rs, operate_measure.rs
 //!                   -> transform, trim                         transform.rs, support.rs, trim.rs, trim_parts.rs,
 //!                                                              trim_change.rs, trim_report.rs
 //!          <- fpt_status, text of a failure for fpt_last_error
@@ -45,6 +46,9 @@ mod weights_records;
 mod weights_report;
 mod weights;
 mod weights_edit;
+mod operate_curve;
+mod operate_surface;
+mod operate_measure;
 mod transform;
 mod support;
 mod trim;

@@ -86,9 +86,12 @@ proptest! {
         // A weight that would turn negative is refused.
         let Ok(coarse) = curve.remove_knot(u, 1) else { return Ok(()) };
         holds(&curve, &coarse)?;
-        prop_assert!(coarse.error <= 4.0 * sampled(&curve, &coarse.shape) + 1e-11 * size(curve.poles())
-            || curve.knots().spans().any(|i| curve.knots().values()[i + 1] - curve.knots().values()[i] < 0.01 * (end - start)),
-            "{:e} {:e}", coarse.error, sampled(&curve, &coarse.shape));
+        // Samples see the greatest difference only where no span is short, and no weight is extreme.
+        let steps = curve.knots().spans().map(|i| curve.knots().values()[i + 1] - curve.knots().values()[i]);
+        if !curve.is_rational() && steps.fold(f64::INFINITY, f64::min) > 0.03 * (end - start) {
+            let found = sampled(&curve, &coarse.shape);
+            prop_assert!(coarse.error <= 1.5 * found + 1e-11 * size(curve.poles()), "{:e} {found:e}", coarse.error);
+        }
     }
 
     #[test]
