@@ -13,7 +13,7 @@ from the point of the old one at the same parameters. Surfaces need a `direction
 >>> length = operate.ArcLength(arch)
 >>> value, error = length.total
 >>> round(value, 6), error < 1e-11
-(5.267776, True)
+(5.268366, True)
 """
 
 from __future__ import annotations

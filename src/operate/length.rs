@@ -285,8 +285,11 @@ impl Piece {
 
     /// The share of the piece with a length: safeguarded Newton.
     fn share(&self, wanted: f64, nodes: &[[f64; 2]]) -> f64 {
-        if wanted >= self.own.value || self.own.value <= 0.0 {
-            return if wanted > 0.0 { 1.0 } else { 0.0 };
+        if wanted <= 0.0 {
+            return 0.0;
+        }
+        if wanted >= self.own.value {
+            return 1.0;
         }
         let (mut low, mut high, mut t) = (0.0, 1.0, wanted / self.own.value);
         for _ in 0..60 {
