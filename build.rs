@@ -8,7 +8,7 @@ const HEADER: &str = "include/footpoint.h";
 /// Setting this variable writes the header instead of comparing it.
 const WRITE: &str = "FOOTPOINT_WRITE_HEADER";
 /// The files that hold the C API, in the order in which the header has them.
-const SOURCES: [&str; 27] = [
+const SOURCES: [&str; 33] = [
     "src/ffi.rs",
     "src/ffi/records.rs",
     "src/ffi/options.rs",
@@ -30,12 +30,18 @@ const SOURCES: [&str; 27] = [
     "src/ffi/operate_curve.rs",
     "src/ffi/operate_surface.rs",
     "src/ffi/operate_measure.rs",
+    "src/ffi/fit.rs",
+    "src/ffi/construct.rs",
+    "src/ffi/construct_surface.rs",
+    "src/ffi/offset.rs",
     "src/ffi/transform.rs",
     "src/ffi/support.rs",
     "src/ffi/trim.rs",
     "src/ffi/trim_parts.rs",
     "src/ffi/trim_change.rs",
     "src/ffi/trim_report.rs",
+    "src/ffi/pcurve.rs",
+    "src/ffi/face.rs",
 ];
 
 fn main() {

@@ -498,6 +498,78 @@ void trims_are_those_of_the_c_api() {
     CHECK(a.merge(b, 0, footpoint::support(data)).coedge_count(0) == 6);
 }
 
+void fits_and_constructions_are_those_of_the_c_api() {
+    using namespace footpoint;
+    const double pi = 3.14159265358979323846;
+    std::vector<double> points, grid;
+    for (int i = 0; i < 30; i++) {
+        points.insert(points.end(), {i * 0.1, std::sin(i * 0.2), 0.5});
+        for (int j = 0; j < 20; j++) grid.insert(grid.end(), {i * 0.1, j * 0.1, std::sin(i * 0.2) * std::cos(j * 0.1)});
+    }
+    const auto parameters = fit_parameters(points);
+    CHECK_NEAR(interpolate(points).evaluate(parameters[7])[1], std::sin(1.4), 1e-12);
+    CHECK(interpolate(points, parameters).pole_count() == 30);
+    CHECK(least_squares(1, {0, 0, 1, 1}, parameters, points).result.worst > 0.5);
+    CHECK(fit_curve(points, fit_options(1e-3)).result.worst <= 1e-3);
+    CHECK(interpolate_grid(grid, 30).pole_count_v() == 20);
+    CHECK(fit_grid(grid, 30, fit_options(1e-3)).result.worst <= 1e-3);
+    CHECK(fit_surface(grid, fit_options(1e-3)).result.unproven == 0);
+    const curve low = line({1, 0, 0}, {2, 0, 0}), high = line({1, 0, 1}, {2, 1, 1});
+    const curve left = line({1, 0, 0}, {1, 0, 1}), right = line({2, 0, 0}, {2, 1, 1});
+    const std::array<const curve *, 2> in_u{&low, &high}, in_v{&left, &right};
+    const std::array<const curve *, 4> borders{&left, &right, &low, &high};
+    CHECK(coons(borders).degree_u() >= 1 && ruled(low, high).degree_v() == 1);
+    CHECK(gordon(in_u, {0, left.domain()[1]}, in_v, {0, low.domain()[1]}).degree_u() >= 1);
+    CHECK(skinned(in_u, 1).degree_v() == 1 && extruded(low, {0, 0, 1}).degree_v() == 1);
+    CHECK(revolved(low, {0, 0, 0}, {0, 0, 1}, {0, 2 * pi}).is_closed_u());
+    CHECK_NEAR(translational(low, left).evaluate(0.5, 0.5)[2], 0.5, 1e-15);
+    const curve round = circle_arc(standard_axes, 2, 0, 2 * pi, FPT_ARC_QUINTIC);
+    CHECK(round.degree() == 5 && ellipse_arc(standard_axes, 2, 1, 0, 1).degree() == 2);
+    CHECK(arc_through({1, 0, 0, 0, 1, 0, -1, 0, 0}).is_rational() && conic_arc({0, 0, 0, 1, 1, 0, 2, 0, 0}, 0.4).is_rational());
+    CHECK(parabola(standard_axes, 1, 0, 1).degree() == 2 && hyperbola(standard_axes, 1, 1, 0, 1).degree() == 2);
+    const surface ball = quadric(FPT_QUADRIC_ELLIPSOID, standard_axes, {1, 1, 1}, {0, 1}, {-0.5, 0.5});
+    CHECK(torus(standard_axes, 3, 1, {0, 2 * pi}, {0, 2 * pi}).is_closed_v());
+    CHECK(saddle(standard_axes, 1, 1, {0, 1, 0, 1}).degree_u() == 2 && plane(standard_axes, {0, 1, 0, 1}).degree_u() == 1);
+    CHECK(ferguson({0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0}, {}, {}).degree_u() == 3);
+    const curve x0(1, {0, 0, 1, 1}, {0, 0, 0, 0, 1, 0}), x1(1, {0, 0, 1, 1}, {1, 0, 0, 1, 1, 0});
+    const curve y0(1, {0, 0, 1, 1}, {0, 0, 0, 1, 0, 0}), y1(1, {0, 0, 1, 1}, {0, 1, 0, 1, 1, 0});
+    const curve right_way(1, {0, 0, 1, 1}, {1, 0, 0, 1, 0, 0}), up(1, {0, 0, 1, 1}, {0, 1, 0, 0, 1, 0});
+    CHECK_NEAR(coons_bicubic({&x0, &x1, &y0, &y1}, {&right_way, &right_way, &up, &up}).evaluate(0.25, 0.5)[0], 0.25, 1e-15);
+    const auto pipe = swept(line({2, 0, 0}, {2.5, 0, 0}), round, sweep_options(1e-5));
+    CHECK(pipe.error <= 1e-5 && std::fabs(pipe.holonomy) < 1e-9);
+    CHECK_NEAR(offset(ball, 1).evaluate(0.5, 0.5)[0], 2 * std::cos(0.5), 1e-12);
+    CHECK(std::hypot(offset(round, 1, {0, 0, 1}).evaluate(0.1)[0], offset(round, 1, {0, 0, 1}).evaluate(0.1)[1]) > 2.999);
+    CHECK(fit_offset(ball, 0.5, 3, 3, 1e-4).proven <= 1e-4 && fit_offset(round, 0.5, {0, 0, 1}, 3, 1e-4).proven <= 1e-4);
+    check_thrown([&] { (void)fit_curve(points, fit_options()); }, FPT_INVALID_ARGUMENT, "tolerance");
+}
+
+void pcurves_and_faces_are_those_of_the_c_api() {
+    const std::vector<double> knots{0, 0, 0, 0, 1, 1, 1, 1};
+    std::vector<double> poles;
+    for (int i = 0; i < 16; i++) poles.insert(poles.end(), {double(i / 4), double(i % 4), i == 5 || i == 10 ? 2.0 : 0.0});
+    const surface hill(3, 3, knots, knots, poles);
+    const curve line(1, {0, 0, 1, 1}, {0.1, 0.2, 0, 0.9, 0.7, 0});
+    const footpoint::proven_curve image = footpoint::lift(hill, line);
+    CHECK(image.deviation.flags == FPT_DEVIATION_EXACT && image.shape.degree() == 6);
+    const std::vector<footpoint::proven_curve> back = footpoint::pull(hill, image.shape);
+    CHECK(back.size() == 1 && back[0].shape.degree() == 1 && back[0].deviation.flags == 0);
+    CHECK(footpoint::deviation(hill, back[0].shape, image.shape).bound < 1e-6);
+    const curve outline(1, {0, 0, 1, 2, 3, 3}, {0.1, 0.1, 0, 0.9, 0.1, 0, 0.1, 0.9, 0, 0.1, 0.1, 0});
+    const std::vector<std::vector<const curve *>> loops{{&outline}};
+    const footpoint::face face(hill, loops);
+    CHECK(face.classify({0.3, 0.3, 0.8, 0.8}).at(0).standing == FPT_FACE_INSIDE);
+    CHECK(face.classify({0.3, 0.3, 0.8, 0.8}).at(1).standing == FPT_FACE_OUTSIDE);
+    const footpoint::face_feet found = face.closest({3, 3, 1});
+    CHECK(found.places.at(0).standing == FPT_FACE_ON_EDGE && found.feet.at(0).lower_bound <= found.feet.at(0).distance);
+    const std::vector<double> inside = hill.evaluate(0.3, 0.3, 0);
+    CHECK(face.preimage({inside[0], inside[1], inside[2]}).size() == 1);
+    const footpoint::trimmed_surface whole{footpoint::support(hill)};
+    CHECK(whole.prepared().classify({0.8, 0.8}).at(0).standing == FPT_FACE_INSIDE);
+    check_thrown([&] { face.classify({0.5}); }, FPT_INVALID_ARGUMENT, "uv");
+    const std::vector<std::vector<const curve *>> missing{{nullptr}};
+    check_thrown([&] { footpoint::face(hill, missing); }, FPT_INVALID_ARGUMENT, "pcurve 0 of loop 0");
+}
+
 void versions_agree() {
     CHECK(footpoint::version() == FPT_VERSION && footpoint::abi_version() == FPT_ABI_VERSION);
 }
@@ -544,6 +616,8 @@ int main() {
     RUN(weights_are_those_of_the_c_api);
     RUN(trims_are_those_of_the_c_api);
     RUN(operations_are_those_of_the_c_api);
+    RUN(fits_and_constructions_are_those_of_the_c_api);
+    RUN(pcurves_and_faces_are_those_of_the_c_api);
     RUN(versions_agree);
     return check_report("wrapper");
 }

@@ -5,7 +5,7 @@
  * Said once, for every function:
  *
  * Units     Lengths, tolerances and distances are in the unit of the poles. Parameters are in the unit of
- *           the knots; those of elementary surfaces that are angles are in radians.
+ *           the knots. Angles are in radians.
  * Failure   A function that can fail returns an fpt_status: FPT_OK (0) or a number of fpt_status_code.
  *           fpt_last_error() has the text of the calling thread's last failure; it names the parameter
  *           and the index. Outputs are written only when FPT_OK is returned (exceptions: FPT_CANCELLED
@@ -518,7 +518,171 @@ typedef enum fpt_finding_kind {
      * The surface's function fails on a coedge.
      */
     FPT_FINDING_FAILING = 9,
+    /**
+     * Whether two coedges touch could not be decided: they are too long for the tolerance, or lie on each other.
+     */
+    FPT_FINDING_UNDECIDED = 10,
 } fpt_finding_kind;
+
+/**
+ * Parameters for points in order, for fpt_fit_options.spacing.
+ */
+typedef enum fpt_spacing {
+    /**
+     * Steps as the distances of the points.
+     */
+    FPT_SPACING_CHORDAL = 0,
+    /**
+     * Steps as the square roots of the distances.
+     */
+    FPT_SPACING_CENTRIPETAL = 1,
+    /**
+     * Equal steps.
+     */
+    FPT_SPACING_UNIFORM = 2,
+} fpt_spacing;
+
+/**
+ * What the ends of an interpolating curve do, for fpt_fit_options.condition.
+ */
+typedef enum fpt_fit_condition {
+    /**
+     * Nothing: as many poles as points.
+     */
+    FPT_FIT_FREE = 0,
+    /**
+     * First derivatives are fpt_fit_options.tangents. Degree 2 or more.
+     */
+    FPT_FIT_TANGENTS = 1,
+    /**
+     * The natural spline of an odd degree p: derivatives of order (p+1)/2 to p-1 vanish.
+     */
+    FPT_FIT_NATURAL = 2,
+    /**
+     * The curve is closed, smoothly; the first point is not repeated at the end.
+     */
+    FPT_FIT_PERIODIC = 3,
+} fpt_fit_condition;
+
+/**
+ * How an arc of a circle or ellipse is written as a spline over [0, 1], for the functions that take a form.
+ */
+typedef enum fpt_arc_form {
+    /**
+     * Degree 2: equal arcs of 3 poles that share their ends, of at most a quarter turn (a full turn has 9 poles).
+     */
+    FPT_ARC_QUARTERS = 0,
+    /**
+     * Degree 2: half turns of 4 poles (a full turn has 7); only for sweeps of one or two half turns.
+     */
+    FPT_ARC_HALVES = 1,
+    /**
+     * Degree 2: arcs of at most a third of a turn (a full turn has 7 poles).
+     */
+    FPT_ARC_THIRDS = 2,
+    /**
+     * Degree 3: one piece of 4 poles, for sweeps up to 4 radians.
+     */
+    FPT_ARC_CUBIC = 3,
+    /**
+     * Degree 5: one piece of 6 poles, for full turns.
+     */
+    FPT_ARC_QUINTIC = 4,
+} fpt_arc_form;
+
+/**
+ * Quadrics with an axis, for fpt_surface_quadric: distance from the axis and height along the profile's parameter t.
+ */
+typedef enum fpt_quadric {
+    /**
+     * cos t, sin t: t is a latitude.
+     */
+    FPT_QUADRIC_ELLIPSOID = 0,
+    /**
+     * cosh t, sinh t: hyperboloid of one sheet.
+     */
+    FPT_QUADRIC_ONE_SHEET = 1,
+    /**
+     * sinh t, cosh t: half a hyperboloid of two sheets, t >= 0.
+     */
+    FPT_QUADRIC_TWO_SHEETS = 2,
+    /**
+     * t, t^2: elliptic paraboloid, t >= 0.
+     */
+    FPT_QUADRIC_PARABOLOID = 3,
+    /**
+     * t, t: elliptic cone, t >= 0.
+     */
+    FPT_QUADRIC_CONE = 4,
+    /**
+     * 1, t: elliptic cylinder.
+     */
+    FPT_QUADRIC_CYLINDER = 5,
+} fpt_quadric;
+
+/**
+ * Bits of fpt_deviation.flags.
+ */
+typedef enum fpt_deviation_flag {
+    /**
+     * The proven bound exceeds the tolerance.
+     */
+    FPT_DEVIATION_NOT_PROVEN = 1,
+    /**
+     * Pull: the edge is proven to leave the surface by more than the tolerance.
+     */
+    FPT_DEVIATION_NOT_ON_SURFACE = 2,
+    /**
+     * Pull: the piece runs along the seam of u; the other end of u is as good.
+     */
+    FPT_DEVIATION_ALONG_SEAM_U = 4,
+    /**
+     * Pull: the piece runs along the seam of v.
+     */
+    FPT_DEVIATION_ALONG_SEAM_V = 8,
+    /**
+     * Pull: the edge crosses a seam where the piece begins.
+     */
+    FPT_DEVIATION_FROM_SEAM = 16,
+    /**
+     * Pull: the edge crosses a seam where the piece ends.
+     */
+    FPT_DEVIATION_TO_SEAM = 32,
+    /**
+     * Pull: the piece begins on a collapsed edge of the surface.
+     */
+    FPT_DEVIATION_FROM_COLLAPSED = 64,
+    /**
+     * Pull: the piece ends on a collapsed edge of the surface.
+     */
+    FPT_DEVIATION_TO_COLLAPSED = 128,
+    /**
+     * Lift: the curve is the image up to rounding, not fitted.
+     */
+    FPT_DEVIATION_EXACT = 256,
+} fpt_deviation_flag;
+
+/**
+ * Where a place lies, for fpt_face_place.standing.
+ */
+typedef enum fpt_face_standing {
+    /**
+     * In the face, farther from its edges than the tolerance.
+     */
+    FPT_FACE_INSIDE = 0,
+    /**
+     * Not in the face, farther from its edges than the tolerance.
+     */
+    FPT_FACE_OUTSIDE = 1,
+    /**
+     * Within the tolerance of an edge, in space.
+     */
+    FPT_FACE_ON_EDGE = 2,
+    /**
+     * It could not be decided whether an edge is within the tolerance; or the query was none.
+     */
+    FPT_FACE_UNKNOWN = 3,
+} fpt_face_standing;
 
 /**
  * The arc length of a curve as a function of its parameter. Immutable: any number of threads may use one at a time. Owned by the caller,
@@ -535,10 +699,22 @@ typedef struct fpt_arc_length fpt_arc_length;
 typedef struct fpt_curve fpt_curve;
 
 /**
+ * A face prepared for queries: a surface and loops of pcurves. Immutable: any number of threads may use one at a time. Owned by the
+ * caller, released by fpt_face_free; the handles that it was made from may be freed before or after it.
+ */
+typedef struct fpt_face fpt_face;
+
+/**
  * A set of feet. Immutable: any number of threads may read one at a time. Owned by the caller, released by
  * fpt_foot_set_free; it does not refer to the shape that it came from.
  */
 typedef struct fpt_foot_set fpt_foot_set;
+
+/**
+ * The pcurves of an edge, in its order. Immutable. Owned by the caller, released by fpt_pcurve_set_free; it does not refer to
+ * the handles that it came from.
+ */
+typedef struct fpt_pcurve_set fpt_pcurve_set;
 
 /**
  * A monotone function of one parameter on an interval, with its inverse. Immutable: any number of threads may use one at a time.
@@ -1313,6 +1489,126 @@ typedef struct fpt_joint {
 } fpt_joint;
 
 /**
+ * How to fit. Fill it with fpt_fit_options_init, then change what matters. All zero after struct_size is the default of everything
+ * but the tolerance, which fits need. Grows at the end only.
+ */
+typedef struct fpt_fit_options {
+    /**
+     * sizeof(fpt_fit_options), set by fpt_fit_options_init.
+     */
+    size_t struct_size;
+    /**
+     * Length, more than 0 for fits: knots are added until no point is farther away. Not looked at by interpolation.
+     */
+    double tolerance;
+    /**
+     * Degree of curves, and of surfaces in u, 1 to 31; 0: 3.
+     */
+    uint32_t degree_u;
+    /**
+     * Degree of surfaces in v, 1 to 31; 0: 3.
+     */
+    uint32_t degree_v;
+    /**
+     * A value of fpt_spacing: parameters when none are given.
+     */
+    uint32_t spacing;
+    /**
+     * A value of fpt_fit_condition; for fpt_curve_interpolate.
+     */
+    uint32_t condition;
+    /**
+     * With FPT_FIT_TANGENTS: x,y,z of the derivative at the first point, then at the last; NaN in x: none there. Borrowed during the call.
+     */
+    const double *tangents;
+    /**
+     * Most poles, of a grid in either direction; 0: 10,000, of a grid 4,096.
+     */
+    size_t max_poles;
+    /**
+     * 1: parameters stay as they are; 0: each point is fitted at its foot. For fpt_curve_fit and fpt_surface_fit.
+     */
+    uint32_t keep_parameters;
+    /**
+     * 1: fpt_surface_fit_grid asks for the feet of all points, too, with proof; 0: distances are those at the parameters.
+     */
+    uint32_t certify;
+    /**
+     * 0: all cores, 1: the calling thread only. Results are the same bits for any number.
+     */
+    uint32_t threads;
+    /**
+     * Must be 0.
+     */
+    uint32_t reserved;
+    /**
+     * Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED. NULL: never.
+     */
+    int (*should_stop)(void *user);
+    /**
+     * Handed to should_stop as it is.
+     */
+    void *user;
+} fpt_fit_options;
+
+/**
+ * How far the data points are from a fitted shape: 40 bytes, frozen.
+ */
+typedef struct fpt_fit_result {
+    /**
+     * No data point is farther from the shape than this.
+     */
+    double worst;
+    /**
+     * Proven: some data point is at least that far away. 0 when feet were not asked for.
+     */
+    double at_least;
+    /**
+     * Root of the mean of the squared distances.
+     */
+    double rms;
+    /**
+     * The data point with the distance `worst`.
+     */
+    uint64_t worst_index;
+    /**
+     * Data points whose distance is an upper bound only: a nearer place was not excluded.
+     */
+    uint64_t unproven;
+} fpt_fit_result;
+
+/**
+ * How fpt_surface_swept moves a profile. All zero after struct_size is the default of everything but the tolerance. Grows at the end
+ * only.
+ */
+typedef struct fpt_sweep_options {
+    /**
+     * sizeof(fpt_sweep_options), set by fpt_sweep_options_init.
+     */
+    size_t struct_size;
+    /**
+     * Length, more than 0: greatest distance from the exact swept surface at equal parameters.
+     */
+    double tolerance;
+    /**
+     * Turn about the tangent in all, in radians, spread evenly over the length.
+     */
+    double twist;
+    /**
+     * Degree along the spine, 1 to 31; 0: 3.
+     */
+    uint32_t degree;
+    /**
+     * 1: on a closed spine the last frame is brought onto the first; 0: not.
+     */
+    uint32_t close;
+    /**
+     * Most poles along the spine; 0: 2,000.
+     */
+    size_t max_poles;
+} fpt_sweep_options;
+
+/**
  * The input of fpt_relation_from_callback.
  */
 typedef struct fpt_relation_callback {
@@ -1581,7 +1877,7 @@ typedef struct fpt_trim_summary {
      */
     double segment_error;
     /**
-     * 1: coedges without a finding are proven to be disjoint; 0: the surface is a function, its speed is known from samples only.
+     * 1: coedges without a finding are proven to be disjoint away from common ends; 0: the surface is a function, its speed is known from samples only.
      */
     uint32_t proven;
     /**
@@ -1635,6 +1931,142 @@ typedef struct fpt_trim_finding {
      */
     double numbers[3];
 } fpt_trim_finding;
+
+/**
+ * How to pull an edge back. Fill it with fpt_pull_options_init, then change what matters. All zero after struct_size is the
+ * default of everything. Grows at the end only.
+ */
+typedef struct fpt_pull_options {
+    /**
+     * sizeof(fpt_pull_options), set by fpt_pull_options_init.
+     */
+    size_t struct_size;
+    /**
+     * Length, finite, >= 0: greatest distance between edge and image at equal parameters. 0: 1e-7 x the diagonal of the
+     * surface's box.
+     */
+    double tolerance;
+    /**
+     * Degree of fitted pcurves, 1 to 9. 0: 3, or 5 for tolerances below 1e-8 x the diagonal.
+     */
+    size_t degree;
+    /**
+     * Most poles of a pcurve; 0: 2000.
+     */
+    size_t pole_limit;
+    /**
+     * 2 finite numbers u,v near the edge's start, where more than one place of the surface is as near: seams,
+     * self-intersections. Along a seam the nearer end of the domain is taken. NULL: none. Borrowed during the call.
+     */
+    const double *hint;
+    /**
+     * Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED. NULL: never.
+     */
+    int (*should_stop)(void *user);
+    /**
+     * Handed to should_stop as it is.
+     */
+    void *user;
+} fpt_pull_options;
+
+/**
+ * How to lift a pcurve. Fill it with fpt_lift_options_init, then change what matters. All zero after struct_size is the
+ * default of everything. Grows at the end only.
+ */
+typedef struct fpt_lift_options {
+    /**
+     * sizeof(fpt_lift_options), set by fpt_lift_options_init.
+     */
+    size_t struct_size;
+    /**
+     * Length, finite, >= 0: greatest deviation of a fitted image. 0: 1e-7 x the diagonal of the surface's box.
+     */
+    double tolerance;
+    /**
+     * Exact images may have at most this degree, 1 to 31: that of the pcurve times the sum of the surface's. Isocurves always
+     * are exact. 0: 6.
+     */
+    size_t exact_degree;
+} fpt_lift_options;
+
+/**
+ * How far a curve in space is from the image of a pcurve, at equal parameters: 32 bytes, frozen.
+ */
+typedef struct fpt_deviation {
+    /**
+     * Proven: nowhere more than this, rounding included.
+     */
+    double bound;
+    /**
+     * The greatest distance found, up to rounding; bound - reached is what the proof leaves open.
+     */
+    double reached;
+    /**
+     * The parameter where it was found.
+     */
+    double at;
+    /**
+     * Sum of fpt_deviation_flag values.
+     */
+    uint32_t flags;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} fpt_deviation;
+
+/**
+ * The input of fpt_face_new. Copied: nothing is borrowed after the call.
+ */
+typedef struct fpt_face_data {
+    /**
+     * sizeof(fpt_face_data).
+     */
+    size_t struct_size;
+    /**
+     * A spline surface.
+     */
+    const struct fpt_surface *surface;
+    /**
+     * At least 1.
+     */
+    size_t loop_count;
+    /**
+     * For each loop the number of its pcurves, at least 1.
+     */
+    const size_t *coedge_counts;
+    /**
+     * The pcurves of all loops, one after the other: spline curves with z = 0 in the domain of the surface, each beginning
+     * where the one before ends, up to a gap that a line closes. A region across a seam is bounded on both sides of it.
+     */
+    const struct fpt_curve *const *pcurves;
+} fpt_face_data;
+
+/**
+ * A place of a face: 24 bytes, frozen.
+ */
+typedef struct fpt_face_place {
+    /**
+     * A value of fpt_face_standing.
+     */
+    uint32_t standing;
+    /**
+     * On an edge: the number of its loop; else UINT32_MAX.
+     */
+    uint32_t loop_index;
+    /**
+     * On an edge: the number of the pcurve in its loop; else UINT32_MAX.
+     */
+    uint32_t coedge_index;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+    /**
+     * On an edge: the parameter of the pcurve; else NaN.
+     */
+    double parameter;
+} fpt_face_place;
 
 #ifdef __cplusplus
 extern "C" {
@@ -3882,6 +4314,537 @@ fpt_status fpt_curve_from_power(size_t degree,
                                 struct fpt_curve **out);
 
 /**
+ * Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.
+ * Does nothing when `options` is NULL or struct_size is smaller than a size_t.
+ * @since 0.1
+ */
+void fpt_fit_options_init(struct fpt_fit_options *options, size_t struct_size);
+
+/**
+ * Parameters from 0 to 1 for points in order.
+ *
+ * @param points   x,y,z of `count` points, at least 2, not all the same
+ * @param spacing  a value of fpt_spacing
+ * @param out      `count` numbers
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_fit_parameters(const double *points,
+                              size_t count,
+                              uint32_t spacing,
+                              double *out);
+
+/**
+ * The curve through points in order.
+ *
+ * @param points      x,y,z of `count` points, at least degree + 1 (fewer with conditions at the ends)
+ * @param parameters  one a point, strictly increasing; a periodic curve has one more, the end of the turn. NULL: options->spacing
+ * @param options     degree_u, spacing, condition and tangents count; NULL: a cubic at chordal parameters
+ * @param out         the handle; release it with fpt_curve_free. A periodic curve comes unrolled
+ * @return FPT_INVALID_ARGUMENT names the first bad number, also for points that determine no such curve in doubles
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_interpolate(const double *points,
+                                 size_t count,
+                                 const double *parameters,
+                                 const struct fpt_fit_options *options,
+                                 struct fpt_curve **out);
+
+/**
+ * The curve on given knots that is nearest to points in the sense of least squares.
+ *
+ * @param points      x,y,z of `count` points
+ * @param parameters  one a point, not decreasing, in the domain of the knots
+ * @param degree      1 to 31
+ * @param knots       repeats written out; every pole must see enough of the points
+ * @param knot_count  number of poles + degree + 1
+ * @param free_ends   0: the curve begins in the first point and ends in the last (clamped knots; their parameters are the ends of the
+ *                    domain); 1: ends are like other points
+ * @param out         the handle; release it with fpt_curve_free
+ * @param result      distances at the parameters (at_least is 0, unproven is count); NULL: not wanted
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_least_squares(const double *points,
+                                   size_t count,
+                                   const double *parameters,
+                                   size_t degree,
+                                   const double *knots,
+                                   size_t knot_count,
+                                   uint32_t free_ends,
+                                   struct fpt_curve **out,
+                                   struct fpt_fit_result *result);
+
+/**
+ * A curve near points in order, from the first to the last: knots are added until no point is farther from the curve than the
+ * tolerance. Parameters are corrected to the feet of the points. Where the tolerance is not reached, with max_poles or with points that
+ * contradict each other, result->worst is above it and the best curve comes all the same: look.
+ *
+ * @param points      x,y,z of `count` points
+ * @param parameters  where the search begins, not decreasing; NULL: options->spacing
+ * @param options     must not be NULL: tolerance; degree_u, spacing, max_poles, keep_parameters, threads and should_stop count
+ * @param out         the handle; release it with fpt_curve_free
+ * @param result      distances of the points from the curve, with proof; NULL: not wanted
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_fit(const double *points,
+                         size_t count,
+                         const double *parameters,
+                         const struct fpt_fit_options *options,
+                         struct fpt_curve **out,
+                         struct fpt_fit_result *result);
+
+/**
+ * The surface through a grid of points.
+ *
+ * @param points   x,y,z of point (i,j) at 3*(i*count_v + j)
+ * @param count_u  at least degree_u + 1
+ * @param count_v  at least degree_v + 1
+ * @param options  degrees and spacing count (parameters are means over all rows); NULL: bicubic, chordal
+ * @param out      the handle; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_interpolate(const double *points,
+                                   size_t count_u,
+                                   size_t count_v,
+                                   const struct fpt_fit_options *options,
+                                   struct fpt_surface **out);
+
+/**
+ * A surface near a grid of points: knots are added in both directions until no point is farther than the tolerance from the surface at
+ * the point's parameters, an upper bound of its distance. Corners are met. Where the tolerance is not reached result->worst is above it.
+ * Cost: about 50 ms for 100,000 points; certified, 0.4 s.
+ *
+ * @param points   x,y,z of point (i,j) at 3*(i*count_v + j)
+ * @param options  must not be NULL: tolerance; degrees, spacing, max_poles, certify, threads and should_stop count
+ * @param out      the handle; release it with fpt_surface_free
+ * @param result   distances; without `certify` at the parameters (at_least is 0, unproven is the number of points). NULL: not wanted
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_fit_grid(const double *points,
+                                size_t count_u,
+                                size_t count_v,
+                                const struct fpt_fit_options *options,
+                                struct fpt_surface **out,
+                                struct fpt_fit_result *result);
+
+/**
+ * A surface near points in any order: knots are added until no point is farther from the surface than the tolerance. Parameters are
+ * corrected to the feet of the points. Where there are no points the surface runs smoothly on. Where the tolerance is not reached
+ * result->worst is above it and the best surface comes all the same: look.
+ *
+ * @param points      x,y,z of `count` points
+ * @param parameters  u,v of each point, where the search begins, for example feet on a surface that is roughly there; their box is
+ *                    the domain. NULL: in the plane nearest to the points
+ * @param options     must not be NULL: tolerance; degrees, max_poles, keep_parameters, threads and should_stop count
+ * @param out         the handle; release it with fpt_surface_free
+ * @param result      distances of the points from the surface, with proof; NULL: not wanted
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_fit(const double *points,
+                           size_t count,
+                           const double *parameters,
+                           const struct fpt_fit_options *options,
+                           struct fpt_surface **out,
+                           struct fpt_fit_result *result);
+
+/**
+ * The segment between two points, by its length from 0 on.
+ *
+ * @param start  x,y,z
+ * @param end    x,y,z, another point
+ * @param out    the handle; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_line(const double *start,
+                          const double *end,
+                          struct fpt_curve **out);
+
+/**
+ * The arc of the circle or ellipse origin + radius_x cos t X + radius_y sin t Y.
+ *
+ * @param axes    9 numbers: the origin, the axis Z, and a direction whose part across Z is X (any lengths); NULL: the coordinate axes
+ * @param start   t of its begin, in radians
+ * @param end     t of its end, more than start by at most a turn
+ * @param form    a value of fpt_arc_form
+ * @param out     the handle; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_arc(const double *axes,
+                         double radius_x,
+                         double radius_y,
+                         double start,
+                         double end,
+                         uint32_t form,
+                         struct fpt_curve **out);
+
+/**
+ * The arc of a circle through three points, from the first over the second to the third, in quadratic pieces.
+ *
+ * @param points  x,y,z of three points that are not on a line
+ * @param out     the handle; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_arc_through(const double *points,
+                                 struct fpt_curve **out);
+
+/**
+ * The conic over a triangle: from its first pole to its third, along the sides at both.
+ *
+ * @param poles  x,y,z of three poles
+ * @param rho    shape factor between 0 and 1: ellipse below 1/2, parabola at 1/2, hyperbola above
+ * @param out    the handle; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE fpt_status fpt_curve_conic(const double *poles, double rho, struct fpt_curve **out);
+
+/**
+ * The arc of the parabola origin + t^2/(4 focal) X + t Y between two t, which are its parameters.
+ *
+ * @param axes   as fpt_curve_arc
+ * @param focal  distance of the focus from the apex, more than 0
+ * @param out    the handle; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_parabola(const double *axes,
+                              double focal,
+                              double start,
+                              double end,
+                              struct fpt_curve **out);
+
+/**
+ * The arc of the hyperbola origin + radius_x cosh t X + radius_y sinh t Y between two t; its parameter runs from 0 to 1.
+ *
+ * @param axes  as fpt_curve_arc
+ * @param out   the handle; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_hyperbola(const double *axes,
+                               double radius_x,
+                               double radius_y,
+                               double start,
+                               double end,
+                               struct fpt_curve **out);
+
+/**
+ * Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.
+ * Does nothing when `options` is NULL or struct_size is smaller than a size_t.
+ * @since 0.1
+ */
+void fpt_sweep_options_init(struct fpt_sweep_options *options, size_t struct_size);
+
+/**
+ * The part of a quadric between two angles about its axis (u, over [0, 1]) and two parameters of its profile (v).
+ *
+ * @param kind       a value of fpt_quadric
+ * @param axes       as fpt_curve_arc
+ * @param semi_axes  3 numbers more than 0: across along X, across along Y, along the axis
+ * @param angles     begin and end in radians, at most a turn
+ * @param profile    begin and end of t
+ * @param form       a value of fpt_arc_form, for u
+ * @param out        the handle; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_quadric(uint32_t kind,
+                               const double *axes,
+                               const double *semi_axes,
+                               const double *angles,
+                               const double *profile,
+                               uint32_t form,
+                               struct fpt_surface **out);
+
+/**
+ * The hyperbolic paraboloid origin + x X + y Y + (x^2/radius_x^2 - y^2/radius_y^2) Z over a rectangle of x and y, its parameters.
+ *
+ * @param axes    as fpt_curve_arc
+ * @param domain  4 numbers: x0, x1, y0, y1
+ * @param out     the handle; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_saddle(const double *axes,
+                              double radius_x,
+                              double radius_y,
+                              const double *domain,
+                              struct fpt_surface **out);
+
+/**
+ * The rectangle origin + u X + v Y.
+ *
+ * @param axes    as fpt_curve_arc
+ * @param domain  4 numbers: u0, u1, v0, v1
+ * @param out     the handle; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_plane(const double *axes,
+                             const double *domain,
+                             struct fpt_surface **out);
+
+/**
+ * A torus, or a part of it; u runs about the axis and v about the tube, both over [0, 1].
+ *
+ * @param axes      as fpt_curve_arc
+ * @param major     radius of the circle of centres, more than 0
+ * @param minor     radius of the tube, more than 0
+ * @param angles_u  begin and end in radians, at most a turn
+ * @param angles_v  the same about the tube; 0 is outside
+ * @param form      FPT_ARC_QUARTERS, FPT_ARC_HALVES or FPT_ARC_THIRDS, for both
+ * @param out       the handle; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_torus(const double *axes,
+                             double major,
+                             double minor,
+                             const double *angles_u,
+                             const double *angles_v,
+                             uint32_t form,
+                             struct fpt_surface **out);
+
+/**
+ * The surface of the lines between points of two curves at equal parameters (affinely, over the domain of the first): u along the
+ * curves, v from 0 on the first to 1 on the second.
+ *
+ * @param out  the handle; release it with fpt_surface_free
+ * @return FPT_UNSUPPORTED for a curve from a callback
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_ruled(const struct fpt_curve *first,
+                             const struct fpt_curve *second,
+                             struct fpt_surface **out);
+
+/**
+ * The surface C(u) + v * direction, v from 0 to 1.
+ *
+ * @param direction  x,y,z, not 0
+ * @param out        the handle; release it with fpt_surface_free
+ * @return FPT_UNSUPPORTED for a curve from a callback
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_extruded(const struct fpt_curve *curve,
+                                const double *direction,
+                                struct fpt_surface **out);
+
+/**
+ * A curve turned about an axis: u the angle over [0, 1], v the parameter of the curve.
+ *
+ * @param origin  x,y,z of a point of the axis
+ * @param axis    its direction, any length
+ * @param angles  begin and end in radians, right-handed, at most a turn
+ * @param form    FPT_ARC_QUARTERS, FPT_ARC_HALVES or FPT_ARC_THIRDS
+ * @param out     the handle; release it with fpt_surface_free
+ * @return FPT_UNSUPPORTED for a curve from a callback
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_revolved(const struct fpt_curve *curve,
+                                const double *origin,
+                                const double *axis,
+                                const double *angles,
+                                uint32_t form,
+                                struct fpt_surface **out);
+
+/**
+ * A curve carried along another without turning: C(u) + T(v) - T(v0). Exact.
+ *
+ * @param out  the handle; release it with fpt_surface_free
+ * @return FPT_UNSUPPORTED for a curve from a callback
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_translational(const struct fpt_curve *curve,
+                                     const struct fpt_curve *spine,
+                                     struct fpt_surface **out);
+
+/**
+ * The bilinearly blended Coons patch of four borders.
+ *
+ * @param borders  4 handles: along u = u0, u = u1 (in v), v = v0, v = v1 (in u); they meet at the corners within 1e-7 of their size.
+ *                 Rational borders are kept as point sets, not in time
+ * @param out      the handle; release it with fpt_surface_free
+ * @return FPT_UNSUPPORTED also for rational borders whose blend has a weight that is not positive
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_coons(const struct fpt_curve *const *borders,
+                             struct fpt_surface **out);
+
+/**
+ * The bicubically blended Coons patch: four borders, and the derivatives across them.
+ *
+ * @param borders  as fpt_surface_coons; polynomial; opposite ones over the same domain
+ * @param slopes   4 handles in the same order: curves whose points are S_u along the first two, S_v along the last two, over the
+ *                 same domains. At a corner they are the derivatives of the borders there, and their own derivatives agree
+ * @param out      the handle; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_coons_bicubic(const struct fpt_curve *const *borders,
+                                     const struct fpt_curve *const *slopes,
+                                     struct fpt_surface **out);
+
+/**
+ * The bicubic patch over [0, 1] x [0, 1] with given corners, slopes and twists (Ferguson, Hermite).
+ *
+ * @param points    x,y,z at (0,0), (0,1), (1,0), (1,1) as (u,v)
+ * @param slopes_u  S_u in the same order
+ * @param slopes_v  S_v in the same order
+ * @param twists    S_uv in the same order; NULL: 0
+ * @param out       the handle; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_ferguson(const double *points,
+                                const double *slopes_u,
+                                const double *slopes_v,
+                                const double *twists,
+                                struct fpt_surface **out);
+
+/**
+ * The Gordon surface through a network of polynomial curves that cross.
+ *
+ * @param curves_u      `count_u` handles of curves in u, at least 2
+ * @param parameters_v  the v of each, strictly increasing, over the domain of the first of curves_v
+ * @param curves_v      `count_v` handles of curves in v, at least 2
+ * @param parameters_u  the u of each, strictly increasing, over the domain of the first of curves_u
+ * @param out           the handle; release it with fpt_surface_free
+ * @return FPT_INVALID_ARGUMENT names curves that are more than 1e-7 of their size apart where they should cross
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_gordon(const struct fpt_curve *const *curves_u,
+                              const double *parameters_v,
+                              size_t count_u,
+                              const struct fpt_curve *const *curves_v,
+                              const double *parameters_u,
+                              size_t count_v,
+                              struct fpt_surface **out);
+
+/**
+ * The surface through sections: u along them, v across.
+ *
+ * @param sections    `count` handles in order, at least 2; over the domain of the first, affinely
+ * @param degree      across, 1 to count - 1
+ * @param parameters  v of the sections, strictly increasing; NULL: from 0 to 1, by the distances of their poles
+ * @param out         the handle; release it with fpt_surface_free
+ * @return FPT_UNSUPPORTED also for rational sections between which a weight would not be positive
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_skinned(const struct fpt_curve *const *sections,
+                               size_t count,
+                               size_t degree,
+                               const double *parameters,
+                               struct fpt_surface **out);
+
+/**
+ * A profile carried along a spine in a rotation minimising frame: it keeps its place relative to the spine's begin. u along the profile,
+ * v is the parameter of the spine.
+ *
+ * @param options   must not be NULL: tolerance
+ * @param out       the handle; release it with fpt_surface_free
+ * @param error     greatest distance from the exact swept surface at dense samples; above the tolerance with max_poles. NULL: not wanted
+ * @param holonomy  radians by which the frame has turned about the tangent after one way round a closed spine; 0 for open ones. NULL: not
+ *                  wanted
+ * @return FPT_UNSUPPORTED for spines with a corner or that stand still, with the parameter
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_swept(const struct fpt_curve *profile,
+                             const struct fpt_curve *spine,
+                             const struct fpt_sweep_options *options,
+                             struct fpt_surface **out,
+                             double *error,
+                             double *holonomy);
+
+/**
+ * The exact offset of a spline curve in a plane, as a curve from a function (with derivatives to order 2, without bounds).
+ *
+ * @param distance      to the right of the curve's direction, seen from the tip of the normal; negative: to the left
+ * @param plane_normal  x,y,z, any length
+ * @param out           the handle; release it with fpt_curve_free
+ * @return FPT_UNSUPPORTED for a curve from a callback
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_offset(const struct fpt_curve *curve,
+                            double distance,
+                            const double *plane_normal,
+                            struct fpt_curve **out);
+
+/**
+ * The offset of fpt_curve_offset as a spline over the same domain.
+ *
+ * @param degree     of the spline, 1 to 31
+ * @param tolerance  wished greatest distance from the exact offset at equal parameters, more than 0
+ * @param out        the handle; release it with fpt_curve_free
+ * @param measured   that distance, at dense samples; NULL: not wanted
+ * @param proven     no point is farther from the exact offset; above the tolerance: not reached or not proven (infinity). NULL: not wanted
+ * @return FPT_UNSUPPORTED where the tangent jumps or is missing
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_offset_fit(const struct fpt_curve *curve,
+                                double distance,
+                                const double *plane_normal,
+                                size_t degree,
+                                double tolerance,
+                                struct fpt_curve **out,
+                                double *measured,
+                                double *proven);
+
+/**
+ * The exact offset of a spline surface along its normal, as a surface from a function (with derivatives to order 2, without bounds).
+ *
+ * @param distance  along S_u x S_v; negative: against it
+ * @param out       the handle; release it with fpt_surface_free
+ * @return FPT_UNSUPPORTED for a surface from a callback
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_offset(const struct fpt_surface *surface,
+                              double distance,
+                              struct fpt_surface **out);
+
+/**
+ * The offset of a surface as a spline over the same domain. At collapsed edges the normal is its limit.
+ *
+ * @param distance   along S_u x S_v; negative: against it
+ * @param degree_u   of the spline, 1 to 31
+ * @param degree_v   of the spline, 1 to 31
+ * @param tolerance  wished greatest distance from the exact offset at equal parameters, more than 0
+ * @param out        the handle; release it with fpt_surface_free
+ * @param measured   that distance, at dense samples; NULL: not wanted
+ * @param proven     no point is farther from the exact offset; above the tolerance: not reached or not proven (infinity: always so at
+ *                   collapsed edges). NULL: not wanted
+ * @return FPT_UNSUPPORTED where the normal jumps or is missing
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_offset_fit(const struct fpt_surface *surface,
+                                  double distance,
+                                  size_t degree_u,
+                                  size_t degree_v,
+                                  double tolerance,
+                                  struct fpt_surface **out,
+                                  double *measured,
+                                  double *proven);
+
+/**
  * The linear function that maps from[0] to to[0] and from[1] to to[1], bit for bit. It is continued outside.
  *
  * @param from  increasing
@@ -4546,6 +5509,209 @@ fpt_status fpt_trim_picture(const struct fpt_trim *const *trims,
                             size_t capacity,
                             char *out,
                             size_t *out_length);
+
+/**
+ * Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.
+ * Does nothing when `options` is NULL or struct_size is smaller than a size_t.
+ * @since 0.1
+ */
+void fpt_pull_options_init(struct fpt_pull_options *options, size_t struct_size);
+
+/**
+ * Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.
+ * Does nothing when `options` is NULL or struct_size is smaller than a size_t.
+ * @since 0.1
+ */
+void fpt_lift_options_init(struct fpt_lift_options *options, size_t struct_size);
+
+/**
+ * The pcurves of an edge: curves u,v,0 in the domain of the surface whose images are the edge, up to a proven deviation, with
+ * the edge's parameter.
+ *
+ * The edge is inverted along its way, with proof, and followed over seams; where it crosses a seam or meets a collapsed edge the
+ * pcurve is cut, since the domain demands it: the pieces there end and begin on the border of the domain, bit for bit. A line
+ * is taken where it is near enough, otherwise a spline by least squares, whose knots are added until the bound of the
+ * deviation is below the tolerance. The bound holds at all parameters, not at samples: no piece leaves the edge for another
+ * branch in between. An edge that is not on the surface gets the pcurve of its feet, and flags that say so.
+ *
+ * Cost: some hundred microseconds to some milliseconds.
+ *
+ * @param surface  a spline surface
+ * @param edge     a spline curve in space
+ * @param options  NULL: the defaults
+ * @param out      the set; release it with fpt_pcurve_set_free
+ * @return FPT_INVALID_ARGUMENT also for an edge that is a single point up to the tolerance, and for one whose feet jump from one
+ *         branch of the surface to another
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_pcurve_pull(const struct fpt_surface *surface,
+                           const struct fpt_curve *edge,
+                           const struct fpt_pull_options *options,
+                           struct fpt_pcurve_set **out);
+
+/**
+ * The number of pcurves: one, or more where seams and collapsed edges cut the edge.
+ * @since 0.1
+ */
+FPT_MUST_USE fpt_status fpt_pcurve_set_count(const struct fpt_pcurve_set *set, size_t *out_count);
+
+/**
+ * A pcurve and its proof. Its domain is the part of the edge's domain that it belongs to.
+ *
+ * @param index         below the count, else FPT_INVALID_ARGUMENT
+ * @param out_pcurve    a new handle with z = 0; release it with fpt_curve_free
+ * @param out_deviation distance between its image and the edge, and where it runs; NULL: not wanted
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_pcurve_set_get(const struct fpt_pcurve_set *set,
+                              size_t index,
+                              struct fpt_curve **out_pcurve,
+                              struct fpt_deviation *out_deviation);
+
+/**
+ * Releases a set. NULL is fine. No other call may use the handle during or after this one.
+ * @since 0.1
+ */
+void fpt_pcurve_set_free(struct fpt_pcurve_set *set);
+
+/**
+ * The image of a pcurve in space, with the pcurve's parameter: the isocurve for an isoline, the composed curve where degrees allow,
+ * else a spline with a proven deviation.
+ *
+ * @param surface       a spline surface
+ * @param pcurve        a spline curve with z = 0 in the domain of the surface
+ * @param options       NULL: the defaults
+ * @param out_curve     a new handle; release it with fpt_curve_free
+ * @param out_deviation how far it is from the image; FPT_DEVIATION_EXACT, or FPT_DEVIATION_NOT_PROVEN when the tolerance was not reached.
+ *                      NULL: not wanted
+ * @return FPT_INVALID_ARGUMENT also for a pcurve that leaves the domain
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_pcurve_lift(const struct fpt_surface *surface,
+                           const struct fpt_curve *pcurve,
+                           const struct fpt_lift_options *options,
+                           struct fpt_curve **out_curve,
+                           struct fpt_deviation *out_deviation);
+
+/**
+ * The greatest distance between a curve in space and the image of a pcurve at equal parameters, on the common part of their
+ * domains, with proof: for checking what another program gives.
+ *
+ * @param surface  a spline surface
+ * @param pcurve   a spline curve with z = 0 in the domain of the surface
+ * @param curve    a spline curve in space
+ * @param out      bound and value differ by some per cent, or by rounding; flags are 0
+ * @return FPT_INVALID_ARGUMENT also for a pcurve that leaves the domain, or domains that have nothing in common
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_pcurve_deviation(const struct fpt_surface *surface,
+                                const struct fpt_curve *pcurve,
+                                const struct fpt_curve *curve,
+                                struct fpt_deviation *out);
+
+/**
+ * Prepares a face for queries. The face is where a ray in the domain crosses the loops an odd number of times: their direction
+ * does not count, holes are what is inside of two. Cost: that of the surface's index, some microseconds a pcurve, some
+ * milliseconds for one whose image must be fitted.
+ *
+ * @param data  the inputs, copied
+ * @param out   the handle; release it with fpt_face_free
+ * @return FPT_INVALID_ARGUMENT names loop and pcurve, also for one that leaves the domain
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_face_new(const struct fpt_face_data *data,
+                        struct fpt_face **out);
+
+/**
+ * Prepares a trimmed surface for queries: as fpt_face_new, with the surface and the loops of `trim`; its edges in space play no part, the
+ * border of a face is the image of its pcurves.
+ *
+ * @param trim  a trimmed surface over a spline surface; one over an elementary surface or a function is FPT_UNSUPPORTED, see
+ *              fpt_trim_to_nurbs
+ * @param out   the handle; release it with fpt_face_free. Parameters of answers are those of the surface, those of places the
+ *              parameters of the coedges' pcurves; an arc's are those of its NURBS form, the angle at the ends of quarter turns only
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_face_of_trim(const struct fpt_trim *trim,
+                            struct fpt_face **out);
+
+/**
+ * Releases a face. NULL is fine. No other call may use the handle during or after this one.
+ * @since 0.1
+ */
+void fpt_face_free(struct fpt_face *face);
+
+/**
+ * On which side of its edges places of the domain lie: inside, outside, or within options->tolerance of an edge, in space.
+ *
+ * Sides are exact: only places nearer to a pcurve than the rounding of its poles, some 1e-13 of them, cannot be told from places on it,
+ * and these are on the edge for any tolerance that is not smaller. Places outside the domain are outside.
+ *
+ * @param uv       `count` pairs u,v, packed. A pair that is not finite is FPT_FACE_UNKNOWN
+ * @param count    may be 0, then `uv` and `out` may be NULL
+ * @param options  tolerance (0: 1e-7 x the diagonal of the surface's box), budget, threads, should_stop and progress count;
+ *                 NULL: the defaults
+ * @param out      `count` places
+ * @return FPT_CANCELLED when should_stop said so; then the places not reached are FPT_FACE_UNKNOWN
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_face_classify(const struct fpt_face *face,
+                             const double *uv,
+                             size_t count,
+                             const struct fpt_query_options *options,
+                             struct fpt_face_place *out);
+
+/**
+ * The nearest point of the face for each query point, with a proven lower bound of the distance: as fpt_surface_closest, for the
+ * part of the surface that the loops leave.
+ *
+ * Where the nearest point of the surface is inside, it is the answer. Otherwise the nearest point of the edges is, unless the surface
+ * has a nearer stationary point inside the face: all of those are looked for, with proof that none is missing.
+ *
+ * @param points     `count` query points x,y,z, options->point_stride bytes apart. A bad point (NaN, infinite, beyond 1e100)
+ *                   marks its own record with FPT_FOOT_BAD_QUERY
+ * @param count      may be 0, then all arrays may be NULL
+ * @param options    NULL: the defaults. `domain` must be all 0, `scope` global and `trace` NULL: FPT_UNSUPPORTED. The
+ *                   tolerance tells from where on a foot is on an edge; the budget is that of each search
+ * @param out        `count` records, packed; must not overlap `points` or the hints. FPT_FOOT_EDGE, _CORNER, _SEAM and _COLLAPSED are
+ *                   about the domain of the surface
+ * @param out_places `count` places: where on the face the foot lies; NULL: not wanted
+ * @return as fpt_surface_closest
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_face_closest(const struct fpt_face *face,
+                            const double *points,
+                            size_t count,
+                            const struct fpt_query_options *options,
+                            struct fpt_foot_point *out,
+                            struct fpt_face_place *out_places);
+
+/**
+ * All parameters of the face whose point lies within a tolerance of a point, with proof that none is missing: the members of
+ * fpt_surface_preimage that lie in the face or within the tolerance of its edges.
+ *
+ * @param point      3 finite numbers
+ * @param tolerance  length, finite, >= 0; 0: 1e-7 x the diagonal of the surface's box
+ * @param options    budget, should_stop and user count; NULL: the defaults. `domain` must be all 0
+ * @param out        the set; release it with fpt_foot_set_free. Intervals of arcs and regions are those on the surface
+ * @return FPT_BUDGET_EXHAUSTED with a set that misses what lies in its undecided boxes: also arcs of which only a sliver may belong
+ *         to the face
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_face_preimage(const struct fpt_face *face,
+                             const double *point,
+                             double tolerance,
+                             const struct fpt_query_options *options,
+                             struct fpt_foot_set **out);
 
 #ifdef __cplusplus
 }  // extern "C"

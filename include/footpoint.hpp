@@ -923,6 +923,122 @@ private:
     std::unique_ptr<fpt_scene, deleter> handle_;
 };
 
+/** fpt_pull_options that begin as the defaults. */
+struct pull_options : fpt_pull_options {
+    pull_options() noexcept : fpt_pull_options() { fpt_pull_options_init(this, sizeof(fpt_pull_options)); }
+};
+
+/** fpt_lift_options that begin as the defaults. */
+struct lift_options : fpt_lift_options {
+    lift_options() noexcept : fpt_lift_options() { fpt_lift_options_init(this, sizeof(fpt_lift_options)); }
+};
+
+/** A pcurve that was pulled back, or the image of one, and how far it is proven to be from what it stands for. */
+struct proven_curve {
+    curve shape;
+    fpt_deviation deviation;
+};
+
+/** The pcurves of an edge on a surface, in its order, as fpt_pcurve_pull. */
+inline std::vector<proven_curve> pull(const surface &shape, const curve &edge,
+                                      const fpt_pull_options &options = pull_options()) {
+    struct deleter {
+        void operator()(fpt_pcurve_set *handle) const noexcept { fpt_pcurve_set_free(handle); }
+    };
+    fpt_pcurve_set *made = nullptr;
+    check(fpt_pcurve_pull(shape.get(), edge.get(), &options, &made));
+    const std::unique_ptr<fpt_pcurve_set, deleter> set(made);
+    const std::size_t count = detail::value<fpt_pcurve_set, std::size_t>(fpt_pcurve_set_count, set.get());
+    std::vector<proven_curve> out;
+    for (std::size_t i = 0; i < count; i++) {
+        fpt_curve *piece = nullptr;
+        fpt_deviation told{};
+        check(fpt_pcurve_set_get(set.get(), i, &piece, &told));
+        out.push_back({curve(piece), told});
+    }
+    return out;
+}
+/** The image of a pcurve, as fpt_pcurve_lift. */
+inline proven_curve lift(const surface &shape, const curve &pcurve, const fpt_lift_options &options = lift_options()) {
+    fpt_curve *image = nullptr;
+    fpt_deviation told{};
+    check(fpt_pcurve_lift(shape.get(), pcurve.get(), &options, &image, &told));
+    return {curve(image), told};
+}
+/** How far a curve in space is from the image of a pcurve, as fpt_pcurve_deviation. */
+inline fpt_deviation deviation(const surface &shape, const curve &pcurve, const curve &image) {
+    fpt_deviation out{};
+    check(fpt_pcurve_deviation(shape.get(), pcurve.get(), image.get(), &out));
+    return out;
+}
+
+/** Feet on a face, and where on it they are. */
+struct face_feet {
+    std::vector<fpt_foot_point> feet;
+    std::vector<fpt_face_place> places;
+};
+
+/** A surface bounded by loops of pcurves: owner of an fpt_face. */
+class face {
+public:
+    /** As fpt_face_new: the pcurves of each loop in order; surface and pcurves may go before the face does. */
+    face(const surface &shape, span<const std::vector<const curve *>> loops) : handle_(make(shape, loops)) {}
+
+    /** Takes a handle over. */
+    explicit face(fpt_face *handle) noexcept : handle_(handle) {}
+
+    /** The handle, still owned here. */
+    const fpt_face *get() const noexcept { return handle_.get(); }
+    /** The handle, owned by the caller from now on. */
+    fpt_face *release() noexcept { return handle_.release(); }
+
+    /** On which side of the edges places u,v are. */
+    std::vector<fpt_face_place> classify(span<const double> uv, const fpt_query_options &options = query_options()) const {
+        detail::require(uv.size() % 2 == 0, "uv: the length is not even");
+        std::vector<fpt_face_place> out(uv.size() / 2);
+        check(fpt_face_classify(get(), uv.data(), out.size(), &options, out.data()));
+        return out;
+    }
+    /** One record per query point, x,y,z each, and where on the face it is. */
+    face_feet closest(span<const double> points, const fpt_query_options &options = query_options()) const {
+        const std::size_t count = detail::point_count(points, options);
+        face_feet out{std::vector<fpt_foot_point>(count), std::vector<fpt_face_place>(count)};
+        check(fpt_face_closest(get(), points.data(), count, &options, out.feet.data(), out.places.data()));
+        return out;
+    }
+    /** All parameters of the face within a tolerance of a point; 0: the default. */
+    foot_set preimage(const point &query, double tolerance = 0, const fpt_query_options &options = query_options()) const {
+        return detail::set([&](fpt_foot_set **out) {
+            return fpt_face_preimage(get(), query.data(), tolerance, &options, out);
+        });
+    }
+
+private:
+    struct deleter {
+        void operator()(fpt_face *handle) const noexcept { fpt_face_free(handle); }
+    };
+
+    static fpt_face *make(const surface &shape, span<const std::vector<const curve *>> loops) {
+        std::vector<std::size_t> counts;
+        std::vector<const fpt_curve *> pcurves;
+        for (const std::vector<const curve *> &loop : loops) {
+            counts.push_back(loop.size());
+            for (const curve *pcurve : loop) pcurves.push_back(pcurve == nullptr ? nullptr : pcurve->get());
+        }
+        fpt_face_data data{};
+        data.struct_size = sizeof data;
+        data.surface = shape.get();
+        data.loop_count = counts.size();
+        data.coedge_counts = counts.data();
+        data.pcurves = pcurves.data();
+        fpt_face *out = nullptr;
+        check(fpt_face_new(&data, &out));
+        return out;
+    }
+
+    std::unique_ptr<fpt_face, deleter> handle_;
+};
+
 /** fpt_weights_options that begin as the defaults. */
 struct weights_options : fpt_weights_options {
     weights_options() noexcept : fpt_weights_options() {
@@ -1367,6 +1483,13 @@ public:
     const fpt_trim *get() const noexcept { return handle_.get(); }
     fpt_trim *release() noexcept { return handle_.release(); }
 
+    /** Prepared for point queries, as fpt_face_of_trim. */
+    face prepared() const {
+        fpt_face *out = nullptr;
+        check(fpt_face_of_trim(get(), &out));
+        return face(out);
+    }
+
     footpoint::support support() const {
         fpt_support *out = nullptr;
         check(fpt_trim_support(get(), &out));
@@ -1721,6 +1844,285 @@ private:
 };
 
 } // namespace operate
+
+/** fpt_fit_options that begin as the defaults, with a tolerance. */
+struct fit_options : fpt_fit_options {
+    explicit fit_options(double wished = 0) noexcept : fpt_fit_options() {
+        fpt_fit_options_init(this, sizeof(fpt_fit_options));
+        tolerance = wished;
+    }
+};
+
+/** fpt_sweep_options that begin as the defaults, with a tolerance. */
+struct sweep_options : fpt_sweep_options {
+    explicit sweep_options(double wished) noexcept : fpt_sweep_options() {
+        fpt_sweep_options_init(this, sizeof(fpt_sweep_options));
+        tolerance = wished;
+    }
+};
+
+/** A fitted shape and the distances of the data points from it. */
+template <class Shape>
+struct fitted {
+    Shape shape;
+    fpt_fit_result result;
+};
+
+/** An offset as a spline: greatest distance from the exact one, at samples and proven. */
+template <class Shape>
+struct offset_spline {
+    Shape shape;
+    double measured, proven;
+};
+
+/** As fpt_surface_swept. */
+struct swept_surface {
+    surface shape;
+    double error, holonomy;
+};
+
+namespace detail {
+inline std::size_t point_count(span<const double> points) {
+    require(points.size() % 3 == 0, "points: need x,y,z for each point");
+    return points.size() / 3;
+}
+inline std::vector<const fpt_curve *> handles(span<const curve *const> curves) {
+    std::vector<const fpt_curve *> out;
+    for (const curve *each : curves) out.push_back(each ? each->get() : nullptr);
+    return out;
+}
+inline const double *optional(span<const double> numbers, std::size_t count, const char *text) {
+    require(numbers.empty() || numbers.size() == count, text);
+    return numbers.empty() ? nullptr : numbers.data();
+}
+} // namespace detail
+
+/** Nine numbers: origin, axis, direction of X; as fpt_curve_arc. */
+using axes = std::array<double, 9>;
+inline constexpr axes standard_axes{0, 0, 0, 0, 0, 1, 1, 0, 0};
+
+/** As fpt_fit_parameters. */
+inline std::vector<double> fit_parameters(span<const double> points, std::uint32_t spacing = FPT_SPACING_CHORDAL) {
+    std::vector<double> out(detail::point_count(points));
+    check(fpt_fit_parameters(points.data(), out.size(), spacing, out.data()));
+    return out;
+}
+/** As fpt_curve_interpolate. */
+inline curve interpolate(span<const double> points, span<const double> parameters = {},
+                         const fpt_fit_options &options = fit_options()) {
+    const std::size_t count = detail::point_count(points);
+    const std::size_t needed = count + (options.condition == FPT_FIT_PERIODIC ? 1 : 0);
+    fpt_curve *out = nullptr;
+    check(fpt_curve_interpolate(points.data(), count, detail::optional(parameters, needed, "parameters: one a point, periodic one more"),
+                                &options, &out));
+    return curve(out);
+}
+/** As fpt_curve_least_squares. */
+inline fitted<curve> least_squares(std::size_t degree, span<const double> knots, span<const double> parameters,
+                                   span<const double> points, bool free_ends = false) {
+    const std::size_t count = detail::point_count(points);
+    detail::require(parameters.size() == count, "parameters: one a point");
+    fpt_curve *out = nullptr;
+    fpt_fit_result result;
+    check(fpt_curve_least_squares(points.data(), count, parameters.data(), degree, knots.data(), knots.size(), free_ends, &out, &result));
+    return {curve(out), result};
+}
+/** As fpt_curve_fit. */
+inline fitted<curve> fit_curve(span<const double> points, const fpt_fit_options &options, span<const double> parameters = {}) {
+    const std::size_t count = detail::point_count(points);
+    fpt_curve *out = nullptr;
+    fpt_fit_result result;
+    check(fpt_curve_fit(points.data(), count, detail::optional(parameters, count, "parameters: one a point"), &options, &out, &result));
+    return {curve(out), result};
+}
+/** As fpt_surface_interpolate; count_v is what is left of the points. */
+inline surface interpolate_grid(span<const double> points, std::size_t count_u, const fpt_fit_options &options = fit_options()) {
+    detail::require(count_u > 0 && detail::point_count(points) % count_u == 0, "points: not count_u equal rows");
+    fpt_surface *out = nullptr;
+    check(fpt_surface_interpolate(points.data(), count_u, points.size() / 3 / count_u, &options, &out));
+    return surface(out);
+}
+/** As fpt_surface_fit_grid; count_v is what is left of the points. */
+inline fitted<surface> fit_grid(span<const double> points, std::size_t count_u, const fpt_fit_options &options) {
+    detail::require(count_u > 0 && detail::point_count(points) % count_u == 0, "points: not count_u equal rows");
+    fpt_surface *out = nullptr;
+    fpt_fit_result result;
+    check(fpt_surface_fit_grid(points.data(), count_u, points.size() / 3 / count_u, &options, &out, &result));
+    return {surface(out), result};
+}
+/** As fpt_surface_fit; parameters are u,v each. */
+inline fitted<surface> fit_surface(span<const double> points, const fpt_fit_options &options, span<const double> parameters = {}) {
+    const std::size_t count = detail::point_count(points);
+    fpt_surface *out = nullptr;
+    fpt_fit_result result;
+    check(fpt_surface_fit(points.data(), count, detail::optional(parameters, 2 * count, "parameters: u,v for each point"), &options, &out,
+                          &result));
+    return {surface(out), result};
+}
+
+/** As fpt_curve_line. */
+inline curve line(const point &start, const point &end) {
+    fpt_curve *out = nullptr;
+    check(fpt_curve_line(start.data(), end.data(), &out));
+    return curve(out);
+}
+/** As fpt_curve_arc. */
+inline curve ellipse_arc(const axes &place, double radius_x, double radius_y, double start, double end,
+                         std::uint32_t form = FPT_ARC_QUARTERS) {
+    fpt_curve *out = nullptr;
+    check(fpt_curve_arc(place.data(), radius_x, radius_y, start, end, form, &out));
+    return curve(out);
+}
+/** As fpt_curve_arc, of a circle. */
+inline curve circle_arc(const axes &place, double radius, double start, double end, std::uint32_t form = FPT_ARC_QUARTERS) {
+    return ellipse_arc(place, radius, radius, start, end, form);
+}
+/** As fpt_curve_arc_through. */
+inline curve arc_through(const std::array<double, 9> &points) {
+    fpt_curve *out = nullptr;
+    check(fpt_curve_arc_through(points.data(), &out));
+    return curve(out);
+}
+/** As fpt_curve_conic. */
+inline curve conic_arc(const std::array<double, 9> &poles, double rho) {
+    fpt_curve *out = nullptr;
+    check(fpt_curve_conic(poles.data(), rho, &out));
+    return curve(out);
+}
+/** As fpt_curve_parabola. */
+inline curve parabola(const axes &place, double focal, double start, double end) {
+    fpt_curve *out = nullptr;
+    check(fpt_curve_parabola(place.data(), focal, start, end, &out));
+    return curve(out);
+}
+/** As fpt_curve_hyperbola. */
+inline curve hyperbola(const axes &place, double radius_x, double radius_y, double start, double end) {
+    fpt_curve *out = nullptr;
+    check(fpt_curve_hyperbola(place.data(), radius_x, radius_y, start, end, &out));
+    return curve(out);
+}
+/** As fpt_surface_quadric; kind is a value of fpt_quadric. */
+inline surface quadric(std::uint32_t kind, const axes &place, const std::array<double, 3> &semi_axes,
+                       const std::array<double, 2> &angles, const std::array<double, 2> &profile,
+                       std::uint32_t form = FPT_ARC_QUARTERS) {
+    fpt_surface *out = nullptr;
+    check(fpt_surface_quadric(kind, place.data(), semi_axes.data(), angles.data(), profile.data(), form, &out));
+    return surface(out);
+}
+/** As fpt_surface_saddle. */
+inline surface saddle(const axes &place, double radius_x, double radius_y, const std::array<double, 4> &domain) {
+    fpt_surface *out = nullptr;
+    check(fpt_surface_saddle(place.data(), radius_x, radius_y, domain.data(), &out));
+    return surface(out);
+}
+/** As fpt_surface_plane. */
+inline surface plane(const axes &place, const std::array<double, 4> &domain) {
+    fpt_surface *out = nullptr;
+    check(fpt_surface_plane(place.data(), domain.data(), &out));
+    return surface(out);
+}
+/** As fpt_surface_torus. */
+inline surface torus(const axes &place, double major, double minor, const std::array<double, 2> &angles_u,
+                     const std::array<double, 2> &angles_v, std::uint32_t form = FPT_ARC_QUARTERS) {
+    fpt_surface *out = nullptr;
+    check(fpt_surface_torus(place.data(), major, minor, angles_u.data(), angles_v.data(), form, &out));
+    return surface(out);
+}
+/** As fpt_surface_ruled. */
+inline surface ruled(const curve &first, const curve &second) {
+    fpt_surface *out = nullptr;
+    check(fpt_surface_ruled(first.get(), second.get(), &out));
+    return surface(out);
+}
+/** As fpt_surface_extruded. */
+inline surface extruded(const curve &shape, const point &direction) {
+    fpt_surface *out = nullptr;
+    check(fpt_surface_extruded(shape.get(), direction.data(), &out));
+    return surface(out);
+}
+/** As fpt_surface_revolved. */
+inline surface revolved(const curve &shape, const point &origin, const point &axis, const std::array<double, 2> &angles,
+                        std::uint32_t form = FPT_ARC_QUARTERS) {
+    fpt_surface *out = nullptr;
+    check(fpt_surface_revolved(shape.get(), origin.data(), axis.data(), angles.data(), form, &out));
+    return surface(out);
+}
+/** As fpt_surface_translational. */
+inline surface translational(const curve &shape, const curve &spine) {
+    fpt_surface *out = nullptr;
+    check(fpt_surface_translational(shape.get(), spine.get(), &out));
+    return surface(out);
+}
+/** As fpt_surface_coons. */
+inline surface coons(const std::array<const curve *, 4> &borders) {
+    fpt_surface *out = nullptr;
+    check(fpt_surface_coons(detail::handles(borders).data(), &out));
+    return surface(out);
+}
+/** As fpt_surface_coons_bicubic. */
+inline surface coons_bicubic(const std::array<const curve *, 4> &borders, const std::array<const curve *, 4> &slopes) {
+    fpt_surface *out = nullptr;
+    check(fpt_surface_coons_bicubic(detail::handles(borders).data(), detail::handles(slopes).data(), &out));
+    return surface(out);
+}
+/** As fpt_surface_ferguson. */
+inline surface ferguson(const std::array<double, 12> &points, const std::array<double, 12> &slopes_u,
+                        const std::array<double, 12> &slopes_v, const std::array<double, 12> &twists = {}) {
+    fpt_surface *out = nullptr;
+    check(fpt_surface_ferguson(points.data(), slopes_u.data(), slopes_v.data(), twists.data(), &out));
+    return surface(out);
+}
+/** As fpt_surface_gordon. */
+inline surface gordon(span<const curve *const> curves_u, span<const double> parameters_v, span<const curve *const> curves_v,
+                      span<const double> parameters_u) {
+    detail::require(curves_u.size() == parameters_v.size() && curves_v.size() == parameters_u.size(), "parameters: one a curve");
+    fpt_surface *out = nullptr;
+    check(fpt_surface_gordon(detail::handles(curves_u).data(), parameters_v.data(), curves_u.size(), detail::handles(curves_v).data(),
+                             parameters_u.data(), curves_v.size(), &out));
+    return surface(out);
+}
+/** As fpt_surface_skinned. */
+inline surface skinned(span<const curve *const> sections, std::size_t degree, span<const double> parameters = {}) {
+    fpt_surface *out = nullptr;
+    check(fpt_surface_skinned(detail::handles(sections).data(), sections.size(), degree,
+                              detail::optional(parameters, sections.size(), "parameters: one a section"), &out));
+    return surface(out);
+}
+/** As fpt_surface_swept. */
+inline swept_surface swept(const curve &profile, const curve &spine, const fpt_sweep_options &options) {
+    fpt_surface *out = nullptr;
+    double error = 0, holonomy = 0;
+    check(fpt_surface_swept(profile.get(), spine.get(), &options, &out, &error, &holonomy));
+    return {surface(out), error, holonomy};
+}
+/** As fpt_curve_offset. */
+inline curve offset(const curve &shape, double distance, const point &plane_normal) {
+    fpt_curve *out = nullptr;
+    check(fpt_curve_offset(shape.get(), distance, plane_normal.data(), &out));
+    return curve(out);
+}
+/** As fpt_surface_offset. */
+inline surface offset(const surface &shape, double distance) {
+    fpt_surface *out = nullptr;
+    check(fpt_surface_offset(shape.get(), distance, &out));
+    return surface(out);
+}
+/** As fpt_curve_offset_fit. */
+inline offset_spline<curve> fit_offset(const curve &shape, double distance, const point &plane_normal, std::size_t degree,
+                                       double tolerance) {
+    fpt_curve *out = nullptr;
+    double measured = 0, proven = 0;
+    check(fpt_curve_offset_fit(shape.get(), distance, plane_normal.data(), degree, tolerance, &out, &measured, &proven));
+    return {curve(out), measured, proven};
+}
+/** As fpt_surface_offset_fit. */
+inline offset_spline<surface> fit_offset(const surface &shape, double distance, std::size_t degree_u, std::size_t degree_v,
+                                         double tolerance) {
+    fpt_surface *out = nullptr;
+    double measured = 0, proven = 0;
+    check(fpt_surface_offset_fit(shape.get(), distance, degree_u, degree_v, tolerance, &out, &measured, &proven));
+    return {surface(out), measured, proven};
+}
 
 } // namespace footpoint
 

@@ -15,7 +15,7 @@
 //! Limits: tori that touch or cross themselves have no carrier; nor have shapes on whose lines of constant parameter the
 //! carrier's own coordinates are not constant (their parameters are not found in closed form).
 
-mod linear;
+pub(crate) mod linear;
 
 mod form;
 

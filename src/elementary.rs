@@ -20,6 +20,8 @@ mod circle;
 
 mod net;
 
+pub(crate) use net::part;
+
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::bounds::{Vector, add, cross, dot, norm, scaled, sub};
@@ -484,7 +486,7 @@ impl Elementary {
                     return invalid(format!("radius: {radius} is not in 0 .. 1e100"));
                 }
                 let slope = half_angle.abs();
-                if slope.is_nan() || slope < 1e-12 || slope > FRAC_PI_2 - 1e-12 {
+                if !(1e-12..=FRAC_PI_2 - 1e-12).contains(&slope) {
                     return invalid(format!(
                         "half_angle: {half_angle} is 0, or not between -pi/2 and pi/2"
                     ));

@@ -12,6 +12,7 @@
 //!                                                              query.rs, floats.rs, sets.rs, lines.rs
 //!                   -> normal, unwrap                          normals.rs, path.rs
 //!                   -> scene                                   scene.rs, scene_query.rs
+//!                   -> pcurve, face                            pcurve.rs, face.rs
 //!                   -> weights                                 weights.rs, weights_records.rs, weights_report.rs, weights_edit.rs
 //!                   -> operate                                 operate_curve.rs, operate_surface.rs, operate_measure.rs
 //!                   -> transform, trim                         transform.rs, support.rs, trim.rs, trim_parts.rs,
@@ -49,6 +50,12 @@ mod weights_edit;
 mod operate_curve;
 mod operate_surface;
 mod operate_measure;
+mod fit;
+mod construct;
+mod construct_surface;
+mod offset;
+mod pcurve;
+mod face;
 mod transform;
 mod support;
 mod trim;

@@ -20,11 +20,21 @@ use crate::knots::{Knots, MAX_DEGREE};
 
 mod adaptive;
 mod conditions;
+mod grid;
+mod near;
 mod parameters;
+mod scattered;
 mod triangle;
 
 pub use adaptive::{Adaptive, adaptive, of_function};
 pub use conditions::{Condition, interpolate_periodic, interpolate_with, least_squares_periodic};
+pub use grid::{
+    Grid, GridOptions, SheetFit, adaptive_grid, grid_parameters, interpolate_grid,
+    least_squares_grid,
+};
+pub use near::{
+    Certificate, Near, NearOptions, certify, curve_near, plane_parameters, surface_near,
+};
 pub use parameters::{Spacing, averaged_knots, parameters, spread_knots};
 use parameters::{check_parameters, check_points, distance};
 use triangle::{Triangle, zeros};
@@ -203,6 +213,17 @@ fn fitted<const N: usize>(
         (0..N).for_each(|x| right[x] = point[x] - center[x]);
     }
     let list = solve(&knots, parameters, right, N, ends)?;
+    Ok(measured(spline(knots, &list, points, ends), parameters, points))
+}
+
+/// The spline of poles relative to the first point.
+fn spline<const N: usize>(
+    knots: Knots,
+    list: &[f64],
+    points: &[[f64; N]],
+    ends: Ends,
+) -> Spline<N> {
+    let center = points[0];
     let mut poles: Vec<[f64; N]> =
         list.chunks_exact(N).map(|pole| std::array::from_fn(|x| pole[x] + center[x])).collect();
     if ends == Ends::Interpolated {
@@ -210,7 +231,19 @@ fn fitted<const N: usize>(
         let last = poles.len() - 1;
         (poles[0], poles[last]) = (center, points[points.len() - 1]);
     }
-    Ok(measured(Spline { knots, poles }, parameters, points))
+    Spline { knots, poles }
+}
+
+/// The point at `t` of poles of any width, to `out`.
+fn point(knots: &Knots, poles: &[f64], t: f64, out: &mut [f64]) {
+    let (degree, width, span) = (knots.degree(), out.len(), knots.span(t));
+    let mut row = [0.0; MAX_DEGREE + 1];
+    basis::values(knots, span, t, &mut row[..=degree]);
+    out.fill(0.0);
+    for (n, pole) in row[..=degree].iter().zip(poles[(span - degree) * width..].chunks_exact(width))
+    {
+        out.iter_mut().zip(pole).for_each(|(x, p)| *x += n * p);
+    }
 }
 
 /// A spline with its distances from the points.
@@ -281,6 +314,18 @@ fn solve(
     first_pole.extend(inner);
     first_pole.extend(last_pole);
     Ok(first_pole)
+}
+
+/// Poles near rows of `width` numbers at parameters, in the sense of least squares; as many poles as rows interpolate.
+pub(crate) fn rows_near(
+    knots: &Knots,
+    parameters: &[f64],
+    rows: Vec<f64>,
+    width: usize,
+    ends: Ends,
+) -> Result<Vec<f64>, Error> {
+    check_parameters(parameters, rows.len() / width)?;
+    solve(knots, parameters, rows, width, ends)
 }
 
 /// Can the ends be poles?

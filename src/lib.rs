@@ -59,6 +59,8 @@ pub mod operate;
 
 pub mod fit;
 
+pub mod construct;
+
 pub mod elementary;
 
 pub mod transform;
@@ -66,5 +68,7 @@ pub mod transform;
 pub mod pcurve;
 
 pub mod trim;
+
+pub mod face;
 
 mod ffi;

@@ -11,6 +11,14 @@
 //! polyline of two points), and reversal. The reversed curve is `t -> C(-t)` on the negated domain, so that reversing twice gives
 //! the same bits.
 
+pub mod compose;
+
+pub mod deviation;
+
+pub mod lift;
+
+pub mod pull;
+
 use std::f64::consts::PI;
 
 use crate::curve::{Curve, box_of};

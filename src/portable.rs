@@ -23,6 +23,10 @@ pub trait SameDigits: Sized {
     fn arctangent_over(self, x: f64) -> f64;
     /// e^x.
     fn exponential(self) -> f64;
+    /// (e^x - e^-x) / 2.
+    fn hyperbolic_sine(self) -> f64;
+    /// (e^x + e^-x) / 2.
+    fn hyperbolic_cosine(self) -> f64;
     /// Natural logarithm.
     fn logarithm(self) -> f64;
     /// self^y.
@@ -68,6 +72,14 @@ impl SameDigits for f64 {
 
     fn exponential(self) -> f64 {
         libm::exp(self)
+    }
+
+    fn hyperbolic_sine(self) -> f64 {
+        libm::sinh(self)
+    }
+
+    fn hyperbolic_cosine(self) -> f64 {
+        libm::cosh(self)
     }
 
     fn logarithm(self) -> f64 {

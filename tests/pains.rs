@@ -475,6 +475,9 @@ fn no_function_is_called_whose_digits_depend_on_the_system() {
                 visit(&path, calls);
                 continue;
             }
+            if path.ends_with("tests.rs") {
+                continue;
+            }
             let text = std::fs::read_to_string(&path).expect("a source file");
             let code = text.split("#[cfg(test)]").next().unwrap_or_default();
             for line in code.lines().map(|line| line.split("//").next().unwrap_or_default()) {
@@ -488,7 +491,6 @@ fn no_function_is_called_whose_digits_depend_on_the_system() {
     }
     let mut calls = Vec::new();
     visit(&std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut calls);
-    calls.retain(|call| !call.contains("ffi/tests.rs"));
     assert!(calls.is_empty(), "{calls:#?}");
 }
 

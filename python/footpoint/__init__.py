@@ -7,7 +7,8 @@ weak answer is no error but a record whose flags say so.
 Every call releases the GIL and uses all cores unless `threads` says otherwise; Ctrl-C ends a query.
 """
 
-from . import convert, operate, trims, weights
+from . import construct, convert, operate, pcurve, trims, weights
+from ._face import Face, Standing
 from ._feet import Feet, Flag, FootSet, Kind, Method, Nature, NormalFlag, PathChange, Scope
 from ._library import Cancelled, abi_version, version
 from ._scene import NO_MEMBER, Scene
@@ -15,6 +16,6 @@ from ._shapes import Curve, Surface
 from .convert import from_freecad, from_geomdl, from_occ, from_splinepy
 
 __version__ = version()
-__all__ = ["NO_MEMBER", "Cancelled", "Curve", "Feet", "Flag", "FootSet", "Kind", "Method", "Nature", "NormalFlag", "PathChange",
-           "Scene", "Scope", "Surface", "abi_version", "convert", "from_freecad", "from_geomdl", "from_occ", "from_splinepy", "operate", "trims",
-           "version", "weights"]
+__all__ = ["NO_MEMBER", "Cancelled", "Curve", "Face", "Feet", "Flag", "FootSet", "Kind", "Method", "Nature", "NormalFlag", "PathChange",
+           "Scene", "Scope", "Standing", "Surface", "abi_version", "construct", "convert", "from_freecad", "from_geomdl", "from_occ",
+           "from_splinepy", "operate", "pcurve", "trims", "version", "weights"]

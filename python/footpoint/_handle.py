@@ -27,7 +27,7 @@ if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_forked)
 
 
-class Handle:
+class Owner:
     """Owner of a C handle. Immutable; threads may share it.
 
     After a fork the child uses the parent's memory. Only when the search index may have been half built at that moment, by another
@@ -73,6 +73,10 @@ class Handle:
 
     def _call(self, name: str, *arguments: Any) -> int:
         return lib.call(f"{self._kind}_{name}", self._handle, *arguments)
+
+
+class Handle(Owner):
+    """Owner of a curve, a surface or a scene."""
 
     def _get(self, name: str, count: int, dtype: Any = np.float64) -> np.ndarray:
         out = np.zeros(count, dtype)

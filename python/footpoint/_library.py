@@ -167,16 +167,55 @@ class TrimSummary(ctypes.Structure):
                 ("proven", c_uint32), ("reserved", c_uint32), ("finding_count", c_size_t)]
 
 
+class FitOptions(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("tolerance", c_double), ("degree_u", c_uint32), ("degree_v", c_uint32), ("spacing", c_uint32),
+                ("condition", c_uint32), ("tangents", c_void_p), ("max_poles", c_size_t), ("keep_parameters", c_uint32),
+                ("certify", c_uint32), ("threads", c_uint32), ("reserved", c_uint32), ("should_stop", StopFunction), ("user", c_void_p)]
+
+
+class FitResult(ctypes.Structure):
+    _fields_ = [("worst", c_double), ("at_least", c_double), ("rms", c_double), ("worst_index", c_uint64), ("unproven", c_uint64)]
+
+
+class SweepOptions(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("tolerance", c_double), ("twist", c_double), ("degree", c_uint32), ("close", c_uint32),
+                ("max_poles", c_size_t)]
+class Deviation(ctypes.Structure):
+    _fields_ = [("bound", c_double), ("reached", c_double), ("at", c_double), ("flags", c_uint32), ("reserved", c_uint32)]
+
+
+class PullOptions(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("tolerance", c_double), ("degree", c_size_t), ("pole_limit", c_size_t), ("hint", c_void_p),
+                ("should_stop", StopFunction), ("user", c_void_p)]
+
+
+class LiftOptions(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("tolerance", c_double), ("exact_degree", c_size_t)]
+
+
+class FacePlace(ctypes.Structure):
+    _fields_ = [("standing", c_uint32), ("loop_index", c_uint32), ("coedge_index", c_uint32), ("reserved", c_uint32),
+                ("parameter", c_double)]
+
+
+class FaceData(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("surface", c_void_p), ("loop_count", c_size_t), ("coedge_counts", c_void_p),
+                ("pcurves", c_void_p)]
+
+
 STRUCTS: dict[str, type[ctypes.Structure]] = {
     "fpt_curve_data": CurveData, "fpt_surface_data": SurfaceData, "fpt_curve_callback": CurveCallback,
     "fpt_surface_callback": SurfaceCallback, "fpt_query_options": QueryOptions, "fpt_extrema_options": ExtremaOptions,
     "fpt_foot_point": FootPoint, "fpt_foot_member": FootMember, "fpt_scene_member": SceneMember, "fpt_scene_data": SceneData,
     "fpt_weights_options": WeightsOptions, "fpt_weights_constraint": WeightsConstraint, "fpt_weights_pole": WeightsPole,
     "fpt_weights_outcome": WeightsOutcome, "fpt_weights_summary": WeightsSummary, "fpt_weights_conic_shape": WeightsConicShape,
+    "fpt_fit_options": FitOptions, "fpt_fit_result": FitResult, "fpt_sweep_options": SweepOptions,
     "fpt_relation_callback": RelationCallback, "fpt_elementary_data": ElementaryData, "fpt_coedge_data": CoedgeData,
     "fpt_loop_data": LoopData, "fpt_edge_data": EdgeData, "fpt_trim_data": TrimData, "fpt_change_options": ChangeOptions,
     "fpt_change_summary": ChangeSummary, "fpt_trim_finding": TrimFinding, "fpt_trim_summary": TrimSummary,
     "fpt_difference": Difference, "fpt_estimate": Estimate, "fpt_curve_frame_record": CurveFrame, "fpt_joint": Joint,
+    "fpt_deviation": Deviation, "fpt_pull_options": PullOptions, "fpt_lift_options": LiftOptions, "fpt_face_place": FacePlace,
+    "fpt_face_data": FaceData,
 }
 
 # One letter an argument: p pointer (arrays, handles, structs), z size_t, d double, I uint32_t, i int32_t.
@@ -207,6 +246,14 @@ _STATUS = {
     "weights_report_surface": "pp", "weights_move_point": "pdzdp", "weights_through_point": "pzpdpp", "weights_conic": "ppp",
     "weights_of_rho": "dp", "weights_of_eccentricity": "pdpp", "weights_normalise": "pzIp", "weights_bound": "pzdp",
     "weights_standard_form": "pp", "weights_positive_form": "zzppp",
+    "fit_parameters": "pzIp", "curve_interpolate": "pzppp", "curve_least_squares": "pzpzpzIpp", "curve_fit": "pzpppp",
+    "surface_interpolate": "pzzpp", "surface_fit_grid": "pzzppp", "surface_fit": "pzpppp", "curve_line": "ppp", "curve_arc": "pddddIp",
+    "curve_arc_through": "pp", "curve_conic": "pdp", "curve_parabola": "pdddp", "curve_hyperbola": "pddddp", "curve_offset": "pdpp",
+    "curve_offset_fit": "pdpzdppp", "surface_quadric": "IppppIp", "surface_saddle": "pddpp", "surface_plane": "ppp",
+    "surface_torus": "pddppIp", "surface_ruled": "ppp", "surface_extruded": "ppp", "surface_revolved": "ppppIp",
+    "surface_translational": "ppp", "surface_coons": "pp", "surface_coons_bicubic": "ppp", "surface_ferguson": "ppppp",
+    "surface_gordon": "ppzppzp", "surface_skinned": "pzzpp", "surface_swept": "pppppp", "surface_offset": "pdp",
+    "surface_offset_fit": "pdzzdppp",
     "relation_linear": "ppp", "relation_circle": "Idppp", "relation_through": "ppzp", "relation_piecewise": "pzp",
     "relation_from_callback": "pp", "relation_inverse": "pp", "relation_then": "ppp", "relation_domain": "ppp",
     "relation_apply": "ppzp", "transform_new": "ppIp", "transform_inverse": "pp", "transform_then": "ppp",
@@ -230,14 +277,17 @@ _STATUS = {
     "surface_isocurve": "pIdp", "surface_join": "pzIdpp", "surface_make_compatible": "pzp", "surface_difference": "ppp",
     "arc_length_new": "pdp", "arc_length_total": "pp", "arc_length_at": "ppzp", "arc_length_parameters": "ppzp",
     "curve_frame": "pdip", "curve_continuity": "pdzpp", "curve_power": "pzpp", "curve_from_power": "zddpp",
+    "pcurve_pull": "pppp", "pcurve_set_count": "pp", "pcurve_set_get": "pzpp", "pcurve_lift": "ppppp", "pcurve_deviation": "pppp",
+    "face_new": "pp", "face_of_trim": "pp", "face_classify": "ppzpp", "face_closest": "ppzppp", "face_preimage": "ppdpp",
 }
 _OTHER = {
     "last_error": ("", c_char_p), "status_name": ("i", c_char_p), "version": ("", c_uint32), "abi_version": ("", c_uint32),
     "query_options_init": ("pz", None), "extrema_options_init": ("pz", None),
-    "weights_options_init": ("pz", None), "weights_report_free": ("p", None), "curve_free": ("p", None),
+    "weights_options_init": ("pz", None), "fit_options_init": ("pz", None), "sweep_options_init": ("pz", None), "weights_report_free": ("p", None), "curve_free": ("p", None),
     "surface_free": ("p", None), "foot_set_free": ("p", None), "scene_free": ("p", None),
     "change_options_init": ("pz", None), "relation_free": ("p", None), "transform_free": ("p", None), "support_free": ("p", None),
     "trim_free": ("p", None), "arc_length_free": ("p", None), "trim_report_free": ("p", None),
+    "pull_options_init": ("pz", None), "lift_options_init": ("pz", None), "pcurve_set_free": ("p", None), "face_free": ("p", None),
 }
 PROTOTYPES = {name: (letters, c_int32) for name, letters in _STATUS.items()} | _OTHER
 

@@ -285,6 +285,23 @@ class ExtremaOptions(TypedDict, total=False):
     should_stop: "Callable[[], object] | None"
 
 
+class PullOptions(TypedDict, total=False):
+    """The keywords of `pcurve.pull`.
+
+    tolerance    length: greatest distance between the edge and the image, at equal parameters; 0: 1e-7 x the diagonal of the surface's box
+    degree       of fitted pcurves, 1 to 9; 0: 3, or 5 for small tolerances
+    pole_limit   most poles of a pcurve; 0: 2000
+    hint         u, v near the edge's start, where more than one place of the surface is as near
+    should_stop  called without arguments now and then; a true result ends the call with `Cancelled`
+    """
+
+    tolerance: float
+    degree: int
+    pole_limit: int
+    hint: "ArrayLike | None"
+    should_stop: "Callable[[], object] | None"
+
+
 class WeightsOptions(TypedDict, total=False):
     """The keywords of the functions in `weights` that give a report.
 
@@ -311,6 +328,6 @@ class WeightsOptions(TypedDict, total=False):
 
 _OPTIONS: dict[Any, tuple[str, Any]] = {
     lib.QueryOptions: ("query_options_init", QueryOptions), lib.ExtremaOptions: ("extrema_options_init", ExtremaOptions),
-    lib.WeightsOptions: ("weights_options_init", WeightsOptions)}
-_INTEGERS = {"method": 2**32 - 1, "scope": 2**32 - 1, "threads": 2**32 - 1, "budget": 2**64 - 1, "nearest": 2**63 - 1, "steps": 2**32 - 1,
+    lib.WeightsOptions: ("weights_options_init", WeightsOptions), lib.PullOptions: ("pull_options_init", PullOptions)}
+_INTEGERS = {"method": 2**32 - 1, "scope": 2**32 - 1, "threads": 2**32 - 1, "budget": 2**64 - 1, "nearest": 2**63 - 1, "degree": 31, "pole_limit": 2**63 - 1, "steps": 2**32 - 1,
              "starts": 2**32 - 1, "seed": 2**64 - 1}

@@ -28,7 +28,7 @@ from ._query import address, array, integer, real, vector
 from ._shapes import Curve, Surface
 
 __all__ = ["Change", "Coedge", "CoedgeFlag", "Edge", "ElementaryKind", "Finding", "FindingKind", "Loop", "PcurveKind", "Relation",
-           "Replacement", "Report", "Support", "Transform", "TrimmedSurface", "picture"]
+           "Replacement", "Report", "Support", "Transform", "TrimmedSurface", "from_freecad", "picture"]
 
 NO_EDGE = ctypes.c_size_t(-1).value
 
@@ -82,6 +82,7 @@ class FindingKind(IntEnum):
     CONTAINMENT = 7
     SENSE = 8
     FAILING = 9
+    UNDECIDED = 10
 
 
 def _made(name: str, *arguments: Any) -> int:
@@ -127,13 +128,14 @@ class Relation(_Owner):
     @classmethod
     def linear(cls, first: Any, last: Any) -> "Relation":
         """The linear function from the interval `first` to `last`; falling when `last` falls."""
-        return _owner(cls, _made("relation_linear", address(vector("first", first, 2)), address(vector("last", last, 2))))
+        start, end = vector("first", first, 2), vector("last", last, 2)
+        return _owner(cls, _made("relation_linear", address(start), address(end)))
 
     @classmethod
     def circle(cls, arcs: int, sweep: float, first: Any = (0, 1), last: Any = (0, 1)) -> "Relation":
         """From the parameter of a circular arc to its angle; arcs 0: half turns of 4 poles, n: n equal arcs; sweep in radians."""
-        ends = address(vector("first", first, 2)), address(vector("last", last, 2))
-        return _owner(cls, _made("relation_circle", integer("arcs", arcs), real("sweep", sweep), *ends))
+        start, end = vector("first", first, 2), vector("last", last, 2)
+        return _owner(cls, _made("relation_circle", integer("arcs", arcs), real("sweep", sweep), address(start), address(end)))
 
     @classmethod
     def through(cls, places: Any, values: Any) -> "Relation":
@@ -600,3 +602,126 @@ def picture(faces: Sequence[TrimmedSurface], titles: Sequence[str] | None = None
     texts = (ctypes.c_char_p * len(faces))(*(name.encode() for name in names))
     direction = None if view is None else vector("view", view)
     return _text(lambda *room: lib.call("trim_picture", handles, texts, len(faces), address(direction), *room))
+
+
+def from_freecad(face: Any) -> TrimmedSurface:
+    """A face of FreeCAD in its own parameters: planes, cylinders, cones, spheres and tori by their geometric parameters, splines as
+    splines, other surfaces as functions. Its normal stays: a reversed face is flipped."""
+    flipped = face.Orientation == "Reversed"
+    forward = face.copy()
+    forward.Orientation = "Forward"
+    edges: list[Edge] = []
+    numbers: list[tuple[Any, int, bool]] = []
+
+    def number_of(edge: Any) -> tuple[int, bool]:
+        for known, number, same in numbers:
+            if edge.isSame(known):
+                return number, same
+        made, same = _freecad_edge(edge)
+        edges.append(made)
+        numbers.append((edge, len(edges) - 1, same))
+        return len(edges) - 1, same
+
+    loops = []
+    for wire in forward.Wires:
+        left: list[Any] = []
+        for edge in wire.OrderedEdges:
+            turned = edge.Orientation == "Reversed"
+            curve, first, last = forward.curveOnSurface(edge)
+            number, same = number_of(edge)
+            ends = [_two(curve.value(t)) for t in ((last, first) if turned else (first, last))]
+            coedge = _freecad_pcurve(curve, first, last, turned, ends)
+            coedge.edge, coedge.reversed, coedge.same_parameter = number, turned, same
+            way = np.linspace(last, first, 17) if turned else np.linspace(first, last, 17)
+            left.append((ends, coedge, [_two(curve.value(t)) for t in way]))
+        # Head to tail in the domain: a seam comes twice, and the order in space does not tell which time is meant.
+        chain = [left.pop(0)]
+        while left:
+            end = np.array(chain[-1][0][1])
+            nearest = min(range(len(left)), key=lambda k: float(np.abs(np.array(left[k][0][0]) - end).sum()))
+            chain.append(left.pop(nearest))
+        # Outer loops run counter-clockwise; Face.OuterWire is not right for every face with a seam.
+        u, v = np.concatenate([places for _, _, places in chain]).T
+        loops.append(Loop([coedge for _, coedge, _ in chain], float(np.dot(u, np.roll(v, -1)) - np.dot(v, np.roll(u, -1))) < 0))
+    return TrimmedSurface(_freecad_support(forward), loops, edges, flipped)
+
+
+def _two(place: Any) -> tuple[float, float]:
+    return place.x, place.y
+
+
+def _freecad_spline(curve: Any, turned: bool) -> Curve:
+    plane = type(curve).__name__.endswith("2d")
+    if curve.isPeriodic():
+        curve.setNotPeriodic()
+    knots, poles = np.array(curve.KnotSequence), np.array([_two(pole) if plane else tuple(pole) for pole in curve.getPoles()])
+    weights = np.array(curve.getWeights())
+    if turned:
+        knots, poles, weights = -knots[::-1], poles[::-1], weights[::-1]
+    return Curve(curve.Degree, knots, poles, weights if curve.isRational() else None)
+
+
+def _freecad_pcurve(curve: Any, first: float, last: float, turned: bool, ends: list[tuple[float, float]]) -> Coedge:
+    if type(curve).__name__ == "Line2d":
+        (u, v), (s, t) = ends
+        if (u == s) != (v == t):
+            return Coedge.isoline("u", u, v, t) if u == s else Coedge.isoline("v", v, u, s)
+        return Coedge.polyline(ends, [-last, -first] if turned else [first, last])
+    return Coedge.spline(_freecad_spline(curve.toBSpline(first, last), turned))
+
+
+def _freecad_edge(edge: Any) -> tuple[Edge, bool]:
+    """An edge, and whether it has FreeCAD's parameters."""
+    if edge.Degenerated:
+        return Edge(point=tuple(edge.Vertexes[0].Point)), True
+    first, last = edge.ParameterRange
+    kind = type(edge.Curve).__name__
+    if kind in ("Line", "LineSegment"):
+        return Edge(Curve(1, [first, first, last, last], [tuple(edge.Curve.value(t)) for t in (first, last)])), True
+    return Edge(_freecad_spline(edge.Curve.toBSpline(first, last), False)), kind in ("BSplineCurve", "BezierCurve")
+
+
+def _freecad_support(face: Any) -> Support:
+    surface, domain = face.Surface, np.array(face.ParameterRange)
+    kind = type(surface).__name__
+    turn = 2 * np.pi
+    if kind == "Plane":
+        origin, x, y = (np.array(surface.value(*at)) for at in ((0, 0), (1, 0), (0, 1)))
+        return _freecad_elementary("plane", domain, origin, x - origin, y - origin)
+    if kind in ("Cylinder", "Cone", "Sphere", "Toroid"):
+        for k in (0, 2) if kind == "Toroid" else (0,):
+            if domain[k + 1] - domain[k] > turn - 1e-9:
+                domain[k + 1] = domain[k] + turn
+        center, axis = np.array(surface.Center), np.array(surface.Axis)
+        # The direction of the angle 0 from the point there, that of a quarter turn from the tangent.
+        v = 0.0 if kind != "Cone" else domain[2] + 0.7 * (domain[3] - domain[2])
+        out = np.array(surface.value(0, v)) - center
+        out -= out.dot(axis) * axis
+        y = np.array(surface.tangent(0, v)[0])
+        if kind == "Cylinder":
+            return _freecad_elementary("cylinder", domain, center, out, y, surface.Radius, axis=axis)
+        if kind == "Sphere":
+            domain[2:] = np.clip(domain[2:], -turn / 4, turn / 4)
+            return _freecad_elementary("sphere", domain, center, out, y, surface.Radius, axis=axis)
+        if kind == "Toroid":
+            return _freecad_elementary("torus", domain, center, out, y, surface.MajorRadius, surface.MinorRadius, axis)
+        apex = -surface.Radius / np.sin(surface.SemiAngle)
+        domain[2:] = [apex if abs(v - apex) < 1e-9 else v for v in domain[2:]]
+        return _freecad_elementary("cone", domain, center, out, y, surface.Radius, surface.SemiAngle, axis)
+    if kind in ("BSplineSurface", "BezierSurface"):
+        from .convert import from_freecad as whole
+
+        return Support(whole(surface))
+    return Support(Surface.from_function(lambda u, v, order: tuple(surface.value(u, v)), domain))
+
+
+def _freecad_elementary(kind: str, domain: np.ndarray, origin: np.ndarray, x: np.ndarray, y: np.ndarray, first: float = 0.0,
+                        second: float = 0.0, axis: np.ndarray | None = None) -> Support:
+    """Orthonormal axes from rounded directions; the third one by the right hand, or along `axis` when it is given."""
+    x = x / np.linalg.norm(x)
+    y = y - y.dot(x) * x
+    y = y / np.linalg.norm(y)
+    z = np.cross(x, y)
+    if axis is not None and z.dot(axis) < 0:
+        z = -z
+    return Support.elementary(kind, domain, origin=origin, x=x, y=y, z=z, first=first, second=second)

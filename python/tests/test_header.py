@@ -9,7 +9,7 @@ import pytest
 from shapes import ROOT, circle, cloud, cylinder, hill
 
 import footpoint
-from footpoint import _feet, _library, operate, trims, weights
+from footpoint import _face, _feet, _library, construct, operate, pcurve, trims, weights
 
 HEADER = re.sub(r"/\*.*?\*/", "", (ROOT / "include" / "footpoint.h").read_text(encoding="utf-8"), flags=re.S)
 SCALARS = {"size_t": ctypes.c_size_t, "double": ctypes.c_double, "uint32_t": ctypes.c_uint32, "int32_t": ctypes.c_int32,
@@ -58,9 +58,12 @@ def test_structs():
                                           (footpoint.Scope, "FPT_SCOPE_"), (footpoint.Kind, "FPT_MEMBER_"),
                                           (footpoint.Nature, "FPT_NATURE_"), (weights.State, "FPT_WISH_"),
                                           (weights.WeightFlag, "FPT_WEIGHT_"), (weights.ConstraintKind, "FPT_CONSTRAINT_"),
-                                          (weights.Unit, "FPT_UNIT_"), (trims.ElementaryKind, "FPT_ELEMENTARY_"),
+                                          (weights.Unit, "FPT_UNIT_"), (construct.Spacing, "FPT_SPACING_"),
+                                          (construct.Condition, "FPT_FIT_"), (construct.ArcForm, "FPT_ARC_"),
+                                          (construct.QuadricKind, "FPT_QUADRIC_"), (trims.ElementaryKind, "FPT_ELEMENTARY_"),
                                           (trims.PcurveKind, "FPT_PCURVE_"), (trims.CoedgeFlag, "FPT_COEDGE_"),
-                                          (trims.Replacement, "FPT_REPLACEMENT_"), (operate.Direction, "FPT_DIRECTION_"), (trims.FindingKind, "FPT_FINDING_")])
+                                          (trims.Replacement, "FPT_REPLACEMENT_"), (operate.Direction, "FPT_DIRECTION_"), (trims.FindingKind, "FPT_FINDING_"),
+                                          (pcurve.PcurveFlag, "FPT_DEVIATION_"), (footpoint.Standing, "FPT_FACE_")])
 def test_enums(enum: type[Enum], prefix):
     listed = {name: int(value) for name, value in re.findall(rf"^\s*{prefix}(\w+) = (\d+),", HEADER, re.M)}
     assert listed == {name: int(member) for name, member in enum.__members__.items()}
@@ -68,7 +71,7 @@ def test_enums(enum: type[Enum], prefix):
 
 def test_records():
     for struct, dtype in ((_library.FootPoint, _feet.FOOT), (_library.FootMember, _feet.MEMBER), (_library.WeightsPole, weights.POLE),
-                          (_library.WeightsOutcome, weights.OUTCOME)):
+                          (_library.WeightsOutcome, weights.OUTCOME), (_library.FacePlace, _face.PLACE)):
         assert dtype.itemsize == ctypes.sizeof(struct)
         assert {name: dtype.fields[name][1] for name in dtype.names} == {name: getattr(struct, name).offset for name, _ in struct._fields_}
     assert _library.ABI_VERSION == int(re.search(r"#define FPT_ABI_VERSION (\d+)", HEADER)[1])
@@ -163,8 +166,37 @@ def test_every_function_is_reached(monkeypatch):
     weights.standard_form(arch), weights.positive_form(1, [0, 0, 1, 1], [[0, 0, 0, 1], [1, 0, 0, 1]])
     reach_trims()
     reach_operate(curve, surface)
+    reach_constructions()
+    line = footpoint.Curve.from_poles(1, [[0, 0], [1, 1]])
+    (pulled, _), = pcurve.pull(hill(), pcurve.lift(hill(), line)[0])
+    pcurve.deviation(hill(), pulled, pcurve.lift(hill(), line)[0])
+    outline = footpoint.Curve(1, [0, 0, 1, 2, 3, 3], [[0, 0], [1, 0], [0, 1], [0, 0]])
+    face = footpoint.Face(hill(), [[outline]])
+    footpoint.Face.of_trim(trims.TrimmedSurface.whole(trims.Support(hill())))
+    face.classify([0.2, 0.3]), face.closest(points), face.preimage(hill().evaluate([0.2, 0.3]))
     footpoint.version(), footpoint.abi_version()
     with pytest.raises(RuntimeError, match="FPT_INTERNAL"):
         raise _library.failure(_library.INTERNAL)
-    del curve, surface, shape, scene, query
+    del curve, surface, shape, scene, query, face
     assert set(_library.PROTOTYPES) - reached == set()
+
+
+def reach_constructions():
+    c = construct
+    grid = np.stack([*np.meshgrid(np.arange(6.0), np.arange(7.0), indexing="ij"), np.zeros((6, 7))], -1)
+    row = grid[0]
+    at = c.parameters(row)
+    c.interpolate(row), c.least_squares(1, [0, 0, 1, 1], at, row), c.fit_curve(row, 1e-3)
+    c.interpolate_grid(grid), c.fit_grid(grid, 1e-3), c.fit_surface(grid.reshape(-1, 3), 1e-3)
+    low, high = c.line([0, 0, 0], [1, 0, 0]), c.line([0, 1, 0], [1, 1, 0])
+    left, right = c.line([0, 0, 0], [0, 1, 0]), c.line([1, 0, 0], [1, 1, 0])
+    c.arc_through([[1, 0, 0], [0, 1, 0], [-1, 0, 0]]), c.conic([[0, 0, 0], [1, 1, 0], [2, 0, 0]], 0.5)
+    c.parabola(1, 0, 1), c.hyperbola(1, 1, 0, 1), c.saddle(1, 1, [0, 1, 0, 1]), c.plane([0, 1, 0, 1]), c.torus(3, 1)
+    ball, ring = c.quadric(c.QuadricKind.ELLIPSOID, [1, 1, 1], [0, 1], [-0.5, 0.5]), c.arc(2)
+    c.ruled(low, high), c.extruded(low, [0, 0, 1]), c.revolved(low, [0, -1, 0], [1, 0, 0]), c.translational(low, left)
+    along_u, along_v = footpoint.Curve.from_poles(1, [[1, 0], [1, 0]]), footpoint.Curve.from_poles(1, [[0, 1], [0, 1]])
+    c.coons([left, right, low, high]), c.coons([left, right, low, high], [along_u, along_u, along_v, along_v])
+    corners = [[[0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 0]]]
+    c.ferguson(corners, np.zeros((2, 2, 3)), np.zeros((2, 2, 3)))
+    c.gordon([low, high], [0, 1], [left, right], [0, 1]), c.skinned([low, high], 1), c.swept(c.line([2, 0, 0], [3, 0, 0]), ring, 1e-3)
+    c.offset(ring, 1), c.offset(ball, 1), c.fit_offset(ring, 1, 1e-3), c.fit_offset(ball, 1, 1e-3)

@@ -33,7 +33,7 @@ pub enum CircleForm {
 }
 
 /// Poles of a unit circle (cosine, sine, weight) and knots from 0 to 1.
-pub(super) struct Net {
+pub(crate) struct Net {
     pub poles: Vec<[f64; 3]>,
     pub knots: Vec<f64>,
 }
@@ -80,7 +80,7 @@ impl CircleForm {
     }
 
     /// The spline of the arc from `start` to `end`.
-    pub(super) fn net(self, start: f64, end: f64) -> Result<Net, Error> {
+    pub(crate) fn net(self, start: f64, end: f64) -> Result<Net, Error> {
         let sweep = end - start;
         let pieces = self.pieces(sweep)?;
         let [cos, _] = self.half_piece(sweep)?;

@@ -33,6 +33,8 @@ pub enum fpt_finding_kind {
     FPT_FINDING_SENSE = 8,
     /// The surface's function fails on a coedge.
     FPT_FINDING_FAILING = 9,
+    /// Whether two coedges touch could not be decided: they are too long for the tolerance, or lie on each other.
+    FPT_FINDING_UNDECIDED = 10,
 }
 
 /// Something that is wrong. 80 bytes, frozen. What a kind does not have is SIZE_MAX or 0.
@@ -71,7 +73,7 @@ pub struct fpt_trim_summary {
     pub largest_gap: f64,
     /// How far the segments that stand for curves may be off, a length; part of the tolerance unless a curve is very long.
     pub segment_error: f64,
-    /// 1: coedges without a finding are proven to be disjoint; 0: the surface is a function, its speed is known from samples only.
+    /// 1: coedges without a finding are proven to be disjoint away from common ends; 0: the surface is a function, its speed is known from samples only.
     pub proven: u32,
     /// 0.
     pub reserved: u32,
@@ -187,6 +189,10 @@ fn record(finding: &Finding) -> fpt_trim_finding {
             (FPT_FINDING_CONTAINMENT, whole(chain), none, [f64::from(depth), 0.0, 0.0])
         }
         Finding::Sense { edge } => (FPT_FINDING_SENSE, whole(edge), none, [0.0; 3]),
+        Finding::Undecided { first, second } => {
+            let place = |[chain, coedge]: [usize; 2]| Place { chain, coedge, parameter: 0.0 };
+            (FPT_FINDING_UNDECIDED, place(first), place(second), [0.0; 3])
+        }
         Finding::Failing { place } => (FPT_FINDING_FAILING, place, none, [0.0; 3]),
     };
     fpt_trim_finding {

@@ -5,9 +5,10 @@
 //! `h^(degree+1)`: that tells into how many pieces it is cut, 2 to 4.
 
 use super::parameters::{check_parameters, check_points, distance};
-use super::{Ends, Fit, Spline, fitted, measured};
+use super::triangle::zeros;
+use super::{Ends, Fit, fitted, measured, point, solve, spline};
 use crate::error::Error;
-use crate::knots::{Knots, MAX_DEGREE};
+use crate::knots::{Knots, MAX_DEGREE, copied};
 use crate::portable::SameDigits;
 
 /// How [`adaptive`] and [`of_function`] fit.
@@ -33,7 +34,7 @@ impl Default for Adaptive<'_> {
 }
 
 impl Adaptive<'_> {
-    fn check(&self, [start, end]: [f64; 2]) -> Result<(), Error> {
+    pub(super) fn check(&self, [start, end]: [f64; 2]) -> Result<(), Error> {
         let text = if self.degree == 0 || self.degree > MAX_DEGREE {
             format!("degree: {} given, 1 to {MAX_DEGREE} accepted", self.degree)
         } else if !(self.tolerance > 0.0 && self.tolerance.is_finite()) {
@@ -56,7 +57,7 @@ impl Adaptive<'_> {
     }
 
     /// The knots that are there from the beginning.
-    fn first_knots(&self, [start, end]: [f64; 2]) -> Vec<f64> {
+    pub(super) fn first_knots(&self, [start, end]: [f64; 2]) -> Vec<f64> {
         let breaks = self.breaks.iter().flat_map(|&(u, times)| std::iter::repeat_n(u, times));
         let ends = |u| std::iter::repeat_n(u, self.degree + 1);
         ends(start).chain(breaks).chain(ends(end)).collect()
@@ -84,56 +85,82 @@ pub fn adaptive<const N: usize>(
     check_parameters(parameters, points.len())?;
     let domain = [parameters[0], parameters[points.len() - 1]];
     options.check(domain)?;
+    let center = points[0];
+    let mut rows = zeros(points.len(), N)?;
+    for (row, point) in rows.chunks_exact_mut(N).zip(points) {
+        (0..N).for_each(|x| row[x] = point[x] - center[x]);
+    }
+    let (knots, list) = refined(options.first_knots(domain), parameters, &rows, [N, N], options)?;
+    Ok(measured(spline(knots, &list, points, options.ends), parameters, points))
+}
+
+/// Knots from `values` on, with more of them until each row of `rows` is within the tolerance at its parameter, and the poles. A row and
+/// a pole have `width` numbers, which are points of `group` numbers each: a row is as far away as its worst point.
+pub(super) fn refined(
+    mut values: Vec<f64>,
+    parameters: &[f64],
+    rows: &[f64],
+    [width, group]: [usize; 2],
+    options: &Adaptive,
+) -> Result<(Knots, Vec<f64>), Error> {
     let distinct = 1 + parameters.windows(2).filter(|w| w[0] < w[1]).count();
     let limit = options.max_poles.min(distinct);
-    let mut values = options.first_knots(domain);
-    let mut best: Option<Fit<N>> = None;
+    let mut best: Option<(Knots, Vec<f64>)> = None;
+    let mut missed = zeros(parameters.len(), 1)?;
+    let mut sum = zeros(width, 1)?;
     loop {
         let pole_count = values.len() - options.degree - 1;
         let knots =
             Knots::new(&values, options.degree, pole_count).map_err(|error| error.named(""))?;
-        let fit = match (fitted(knots, parameters, points, options.ends), best) {
-            (Ok(fit), _) => fit,
+        let copy = copied(rows)?.into_vec();
+        let poles = match (solve(&knots, parameters, copy, width, options.ends), best) {
+            (Ok(poles), _) => poles,
             (Err(_), Some(best)) => return Ok(best),
             (Err(error), None) => return Err(error),
         };
-        let cuts = cuts(&fit.spline, parameters, points, options, limit - pole_count.min(limit));
-        if fit.worst <= options.tolerance || cuts.is_empty() {
-            return Ok(fit);
+        for ((missed, row), &t) in missed.iter_mut().zip(rows.chunks_exact(width)).zip(parameters) {
+            point(&knots, &poles, t, &mut sum);
+            let pairs = sum.chunks_exact(group).zip(row.chunks_exact(group));
+            let squared = |(a, b): (&[f64], &[f64])| {
+                a.iter().zip(b).fold(0.0, |sum, (x, y)| sum + (x - y) * (x - y))
+            };
+            *missed = pairs.map(squared).fold(0.0, f64::max).sqrt();
+        }
+        let worst = missed.iter().fold(0.0, |a: f64, b| a.max(*b));
+        let cuts = cuts(&knots, parameters, &missed, options, limit.saturating_sub(pole_count));
+        if worst <= options.tolerance || cuts.is_empty() {
+            return Ok((knots, poles));
         }
         values.extend(cuts);
         values.sort_by(f64::total_cmp);
-        best = Some(fit);
+        best = Some((knots, poles));
     }
 }
 
-/// New knots, at most `room`, in the spans that miss a point, the worst spans first.
-fn cuts<const N: usize>(
-    spline: &Spline<N>,
+/// New knots, at most `room`, in the spans that miss a row, the worst spans first.
+pub(super) fn cuts(
+    knots: &Knots,
     parameters: &[f64],
-    points: &[[f64; N]],
+    missed: &[f64],
     options: &Adaptive,
     room: usize,
 ) -> Vec<f64> {
-    let knots = spline.knots();
     let (values, end) = (knots.values(), knots.domain().1);
-    let mut missed = Vec::new();
+    let mut spans = Vec::new();
     for span in knots.spans() {
         let first = parameters.partition_point(|&t| t < values[span]);
         let behind = match values[span + 1] {
             upper if upper == end => parameters.len(),
             upper => parameters.partition_point(|&t| t < upper),
         };
-        let error = (first..behind)
-            .map(|i| distance(&spline.evaluate(parameters[i]), &points[i]))
-            .fold(0.0, f64::max);
+        let error = missed[first..behind].iter().fold(0.0, |a: f64, b| a.max(*b));
         if error > options.tolerance {
-            missed.push((error, span, first, behind));
+            spans.push((error, span, first, behind));
         }
     }
-    missed.sort_by(|a, b| b.0.total_cmp(&a.0));
+    spans.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut cuts = Vec::new();
-    for (error, span, first, behind) in missed {
+    for (error, span, first, behind) in spans {
         let pieces = options.pieces(error);
         let mut last = values[span];
         for j in 1..pieces {
@@ -144,12 +171,9 @@ fn cuts<const N: usize>(
             if i <= first || i >= behind || cuts.len() == room {
                 continue;
             }
-            let cut = 0.5 * parameters[i - 1] + 0.5 * parameters[i];
-            if last < cut
-                && parameters[i - 1] < cut
-                && cut < parameters[i]
-                && cut < values[span + 1]
-            {
+            let [low, high] = [parameters[i - 1], parameters[i]];
+            let cut = 0.5 * low + 0.5 * high;
+            if last < cut && low < cut && cut < high && cut < values[span + 1] {
                 cuts.push(cut);
                 last = cut;
             }

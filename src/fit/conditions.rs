@@ -49,7 +49,7 @@ pub fn interpolate_with<const N: usize>(
     let refuse = |text: String| Err(Error::InvalidArgument(text));
     let natural = matches!(condition, Condition::Natural);
     let least = if natural { 1 } else { 2 };
-    if degree < least || degree > MAX_DEGREE || (natural && degree % 2 == 0) {
+    if degree < least || degree > MAX_DEGREE || (natural && degree.is_multiple_of(2)) {
         let which = if natural { "odd degrees" } else { "2" };
         return refuse(format!("degree: {degree} given, {which} to {MAX_DEGREE} accepted"));
     }

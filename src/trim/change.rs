@@ -74,7 +74,8 @@ pub struct ChangeOptions {
 pub struct Changed {
     /// The face.
     pub face: TrimmedSurface,
-    /// Largest deviation of the image of a pcurve, in space. For vertices alone that of the vertices: 0.
+    /// Largest distance on the new surface of a pcurve's image from the mapped one, at the same parameter. Where vertices stand for
+    /// themselves they count alone.
     pub deviation: f64,
     /// Whether the deviation is proven, or the largest one at samples.
     pub proven: bool,

@@ -16,6 +16,9 @@ const MOST_SEGMENTS: usize = 1 << 15;
 /// Halvings after which bounds of bends are no longer made tighter.
 const LEVELS: usize = 6;
 
+/// Most pairs of boxes that one pair of curves may take.
+const MOST_PAIRS: usize = 1 << 20;
+
 /// Segments below one box of the pair search.
 const LEAF: usize = 4;
 
@@ -130,10 +133,13 @@ impl Flat {
         found
     }
 
-    /// Calls `found` with all pairs of segments of two chains whose boxes are nearer than `reach`.
-    pub fn pairs(&self, other: &Self, reach: f64, found: &mut dyn FnMut(usize, usize)) {
+    /// Calls `found` with all pairs of segments of two chains whose boxes are nearer than `reach`; false when there are more than
+    /// [`MOST_PAIRS`].
+    pub fn pairs(&self, other: &Self, reach: f64, found: &mut dyn FnMut(usize, usize)) -> bool {
         let (root, theirs) = (Run::whole(self), Run::whole(other));
-        self.pairs_of(root, other, theirs, reach, found);
+        let mut left = MOST_PAIRS;
+        self.pairs_of(root, other, theirs, reach, &mut left, found);
+        left > 0
     }
 
     fn pairs_of(
@@ -142,12 +148,14 @@ impl Flat {
         other: &Self,
         b: Run,
         reach: f64,
+        left: &mut usize,
         found: &mut dyn FnMut(usize, usize),
     ) {
+        *left = left.saturating_sub(1);
         let (p, q) = (self.boxes[a.node], other.boxes[b.node]);
         let apart =
             (0..2).any(|k| p[2 * k] > q[2 * k + 1] + reach || q[2 * k] > p[2 * k + 1] + reach);
-        if apart {
+        if apart || *left == 0 {
             return;
         }
         match (a.count <= LEAF, b.count <= LEAF) {
@@ -158,12 +166,12 @@ impl Flat {
             }
             (false, leaf) if leaf || a.count >= b.count => {
                 for half in a.halves() {
-                    self.pairs_of(half, other, b, reach, found);
+                    self.pairs_of(half, other, b, reach, left, found);
                 }
             }
             _ => {
                 for half in b.halves() {
-                    self.pairs_of(a, other, half, reach, found);
+                    self.pairs_of(a, other, half, reach, left, found);
                 }
             }
         }

@@ -194,7 +194,7 @@ fn joined(mut left: Vec<Coedge>, scale: &Scale, tolerance: f64) -> Result<Vec<Lo
             let next = (0..left.len())
                 .rev()
                 .map(|k| (far_apart(end, left[k].start()), k))
-                .filter(|(off, _)| *off <= tolerance && *off < back.max(f64::MIN_POSITIVE))
+                .filter(|(off, _)| *off <= tolerance && *off < back)
                 .min_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
             match next {
                 Some((_, k)) => coedges.push(left.remove(k)),

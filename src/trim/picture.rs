@@ -259,10 +259,16 @@ impl<'a> Drawing<'a> {
     }
 }
 
+/// Lines through points; those nearer than a quarter of a unit to the one before are left out, but for the last.
 fn path(points: impl Iterator<Item = [f64; 2]>) -> String {
     let mut out = String::new();
-    for (k, [x, y]) in points.enumerate() {
-        let _ = write!(out, "{}{x:.2} {y:.2} ", if k == 0 { "M" } else { "L" });
+    let (mut before, mut points) = (None, points.peekable());
+    while let Some([x, y]) = points.next() {
+        let far = before.is_none_or(|[a, b]: [f64; 2]| (x - a).hypotenuse(y - b) >= 0.25);
+        if far || points.peek().is_none() {
+            let _ = write!(out, "{}{x:.2} {y:.2} ", if before.is_none() { "M" } else { "L" });
+            before = Some([x, y]);
+        }
     }
     out
 }

@@ -13,7 +13,8 @@
 //!
 //! Distances in the domain are measured with bounds of the speeds of the surface (`flat`): what is found to be apart by a
 //! length here may be nearer in space only where the surface is slower than its bound, as at a pole. Coedges without a finding are
-//! proven to be disjoint: the error of their segments is part of the tolerance. Edge gaps are the largest at
+//! proven to be disjoint, the error of their segments included; next to a common end, up to a hundredth of the shorter one, only that their
+//! segments do not cross is. Edge gaps are the largest at
 //! [`GAP_SAMPLES`] places and at all corners of each coedge, not proven between them.
 
 use super::flat::{Flat, Scale, far, meeting};
@@ -115,6 +116,13 @@ pub enum Finding {
     Sense {
         /// Number of the edge.
         edge: usize,
+    },
+    /// Whether two coedges touch could not be decided: they are too long for the tolerance, or lie on each other.
+    Undecided {
+        /// Loop and coedge of the first.
+        first: [usize; 2],
+        /// Loop and coedge of the second.
+        second: [usize; 2],
     },
     /// The surface's function fails on a coedge.
     Failing {
@@ -348,7 +356,7 @@ impl Checker<'_> {
         let near = CORNER * contact;
         let wide = near + CORNER_SHARE * a.length.min(b.length);
         let mut hits: Vec<Hit> = Vec::new();
-        a.pairs(b, contact, &mut |i, j| {
+        let complete = a.pairs(b, contact, &mut |i, j| {
             if own && (i >= j || (j - i < 2 || a.run(i + 1, j) <= near)) {
                 return;
             }
@@ -366,6 +374,10 @@ impl Checker<'_> {
             let t = between(b.parameters[j], b.parameters[j + 1], shares[1]);
             hits.push(Hit { crossing, distance, at, segments: [i, j], parameters: [s, t] });
         });
+        if !complete {
+            findings.push(Finding::Undecided { first, second });
+            return;
+        }
         hits.sort_by(|x, y| x.parameters[0].total_cmp(&y.parameters[0]));
         let mut before: Option<Hit> = None;
         for hit in hits {

@@ -242,3 +242,105 @@ fn spline_speeds(surface: &Surface) -> [f64; 2] {
     }
     most.map(|x| x * LOOSE)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::elementary::{Axes, CircleForm, ElementarySurface};
+    use crate::transform::{Relation, between};
+    use std::f64::consts::{FRAC_PI_2, TAU};
+
+    fn meridian() -> Curve {
+        let poles = [[1.5, 0.1, 0.0], [2.0, 0.1, 1.0], [1.0, 0.1, 2.0], [1.7, 0.1, 3.0]];
+        let knots = [0.0, 0.0, 0.0, 0.4, 1.0, 1.0, 1.0];
+        Curve::new(&knots, 2, &poles, Some(&[1.0, 3.0, 0.5, 1.0])).unwrap()
+    }
+
+    #[test]
+    fn no_speed_of_a_support_is_above_its_bound_and_bounds_are_not_far_above() {
+        let axes = Axes::STANDARD;
+        let kinds = [
+            (Elementary::Cylinder { axes, radius: 2.0 }, [0.0, TAU, 0.0, 1.0]),
+            (Elementary::Cone { axes, radius: 1.0, half_angle: 0.5 }, [0.0, 2.0, -1.0, 3.0]),
+            (Elementary::Sphere { axes, radius: 2.0 }, [0.0, TAU, -FRAC_PI_2, FRAC_PI_2]),
+            (Elementary::Torus { axes, major: 2.0, minor: 0.5 }, [0.0, TAU, 0.0, TAU]),
+            (
+                Elementary::Revolution {
+                    origin: [0.0; 3],
+                    axis: [0.0, 0.0, 1.0],
+                    meridian: meridian(),
+                },
+                [0.0, TAU, 0.0, 1.0],
+            ),
+            (
+                Elementary::Extrusion { curve: meridian(), direction: [0.3, 1.0, 0.0] },
+                [0.0, 1.0, -1.0, 2.0],
+            ),
+        ];
+        for (kind, domain) in kinds {
+            let surface = ElementarySurface::new(kind, domain).unwrap();
+            let form = surface.nurbs(surface.usual_forms()).unwrap();
+            for support in [Support::from(surface), form.into()] {
+                let bounds = speeds(&support).unwrap().unwrap();
+                let [u0, u1, v0, v1] = support.domain();
+                let mut most = [0.0f64; 2];
+                for k in 0..=1600 {
+                    let (i, j) = (f64::from(k % 41) / 40.0, f64::from(k / 41) / 40.0);
+                    let at = [between(u0, u1, i), between(v0, v1, j.min(1.0))];
+                    let mut out = [[0.0; 3]; 3];
+                    assert!(support.partials(at, 1, &mut out));
+                    most = [most[0].max(norm(out[1])), most[1].max(norm(out[2]))];
+                }
+                for k in 0..2 {
+                    assert!(most[k] <= bounds[k], "{support:?} {most:?} {bounds:?}");
+                    assert!(bounds[k] <= 4.0 * most[k], "{support:?} {most:?} {bounds:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn no_derivative_of_a_pcurve_or_relation_is_above_its_bound() {
+        let flat: Vec<Vector> = meridian().poles().iter().map(|p| [p[0], p[2], 0.0]).collect();
+        let base = meridian();
+        let flat = Curve::new(base.knots().values(), 2, &flat, base.weights()).unwrap();
+        let curves = [
+            Pcurve::spline(flat).unwrap(),
+            Pcurve::arc([0.5, 0.4], [0.3, 0.1], [-0.05, 0.2], [0.4, 5.0]).unwrap(),
+        ];
+        for curve in curves {
+            let (a, b) = curve.domain();
+            for part in 0..8 {
+                let range = [part, part + 1].map(|k| between(a, b, f64::from(k) / 8.0));
+                let bound = motion(&curve, range);
+                for k in 0..50 {
+                    let t = range[0] + (range[1] - range[0]) * f64::from(k) / 50.0;
+                    let mut out = [[0.0; 2]; 3];
+                    curve.derivatives(t, 2, &mut out);
+                    for axis in 0..2 {
+                        assert!(out[1][axis].abs() <= bound.first[axis], "{curve:?} {t}");
+                        assert!(out[2][axis].abs() <= bound.second[axis], "{curve:?} {t}");
+                    }
+                }
+            }
+        }
+        for form in [CircleForm::Halves, CircleForm::Arcs(3), CircleForm::Arcs(4)] {
+            let there = Relation::circle(form, TAU, [1.0, 3.0], [0.0, TAU]).unwrap();
+            for relation in [there.inverse(), there] {
+                let [first, second] = relation.derivative_bounds().unwrap();
+                let ([a, b], h) = (relation.domain(), 1e-4);
+                for k in 1..400 {
+                    // Not on a joint of pieces, where the second derivative jumps.
+                    let x = between(a, b, (f64::from(k) + 0.37) / 401.0);
+                    let [p, q, r] = [x - h, x, x + h].map(|x| relation.apply(x));
+                    assert!(((r - p) / (2.0 * h)).abs() <= first * (1.0 + 1e-6), "{relation:?}");
+                    let bend = ((r - 2.0 * q + p) / (h * h)).abs();
+                    assert!(
+                        bend <= second * (1.0 + 1e-3) + 1e-6,
+                        "{relation:?} {x} {bend} {second}"
+                    );
+                }
+            }
+        }
+    }
+}

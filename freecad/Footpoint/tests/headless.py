@@ -239,6 +239,35 @@ def test_weights():
         FreeCAD.closeDocument(again.Name)
 
 
+def test_faces_as_trimmed_surfaces():
+    """Points, normals and loops are FreeCAD's; elementary faces go to NURBS with a proof."""
+    from footpoint import trims
+
+    box = Part.makeBox(8, 8, 8, V(-4, -4, -4))
+    solids = [Part.makeSphere(3), Part.makeCylinder(2, 5), Part.makeCone(2, 0, 5), Part.makeCone(1, 2, 5), Part.makeTorus(5, 2),
+              Part.makeCylinder(3, 10, V(0, 0, -5)).cut(Part.makeCylinder(1.5, 10, V(-5, 0, 0.3), V(1, 0, 0))),
+              box.cut(Part.makeSphere(3, V(4, 4, 4))), Part.makeSphere(3).cut(Part.makeCylinder(1, 10, V(0.4, 0.3, -5))),
+              box.makeFillet(0.8, box.Edges), loft()]
+    count = 0
+    for number, solid in enumerate(solids):
+        placed = solid.copy()
+        placed.rotate(V(1, 2, 3), V(1, -2, 0.5), 40)
+        for face in placed.Faces:
+            count += 1
+            trim = trims.from_freecad(face)
+            assert trim.is_flipped == (face.Orientation == "Reversed"), number
+            assert trim.report(1e-6).findings == [], (number, trim.report(1e-6).findings)
+            for k, loop in enumerate(trim.loops):
+                for i in range(len(loop.coedges)):
+                    uv, points, _ = trim.evaluate(k, i, [0, 0.4, 1])
+                    off = [np.linalg.norm(np.array(face.Surface.value(*at)) - point) for at, point in zip(uv, points)]
+                    assert max(off) < 1e-9, (number, off)
+            if type(face.Surface).__name__ in ("Sphere", "Cylinder", "Cone", "Toroid"):
+                changed = trim.to_nurbs(tolerance=1e-5)
+                assert changed.proven and changed.face.report(3e-5).findings == [], number
+    assert count > 50, count
+
+
 def test_refusals():
     for call, text in ((lambda: measure.PartTarget(Part.Vertex(1, 2, 3)), "no faces"), (lambda: measure.invert(Part.Vertex(1, 2, 3), (0, 0, 0)), "curve"),
                        (lambda: parameters.parameter(3, (0, 0, 0)), ""), (lambda: measure.points_of(3), "point cloud")):

@@ -1,0 +1,456 @@
+//! Curves and surfaces near points whose parameters are corrected: each point is fitted at its foot.
+//!
+//! ```text
+//!   fit at the parameters -> feet of the points, by the iterations of `closest` from the parameters -> fit again
+//!                         -> knots where points are still missed -> ...
+//! ```
+//!
+//! At its foot a point's distance is that from the shape, not from a place that the parametrisation chose: fewer poles do.
+//! In the end every point is asked for globally, with proof.
+//!
+//! What is proven: for every data point an upper bound of its distance from the result (the distance of a point of the result) and a
+//! lower one; so `worst` is not exceeded by any data point, and some data point is at least `at_least` away. Nothing is said
+//! between the data points.
+//!
+//! Reference: Hoschek, *Intrinsic parametrization for approximation*, Computer Aided Geometric Design 5, 1988.
+
+use super::adaptive::cuts;
+use super::parameters::{check_parameters, check_points};
+use super::scattered::Design;
+use super::{Adaptive, Ends, fitted};
+use crate::analytic::linear::{add_square, any_frame, least_direction};
+use crate::batch;
+use crate::bounds::{Vector, dot, norm, sub};
+use crate::closest::{FootPoint, QueryOptions, Scope, Workspace, flag};
+use crate::curve::Curve;
+use crate::error::Error;
+use crate::index::{IndexedCurve, IndexedSurface};
+use crate::knots::{Knots, MAX_DEGREE};
+use crate::portable::SameDigits;
+use crate::surface::Surface;
+
+/// How [`curve_near`] and [`surface_near`] fit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NearOptions {
+    /// Degrees, 1 to 31; 3 by default. Curves use the first.
+    pub degrees: [usize; 2],
+    /// Distance of a point from the shape that is good enough; positive.
+    pub tolerance: f64,
+    /// No more poles than that; 10,000 by default.
+    pub max_poles: usize,
+    /// Corrections of all parameters for each set of knots; 3 by default, 0 for none.
+    pub corrections: usize,
+    /// Threads; 0 means all cores.
+    pub threads: usize,
+}
+
+impl Default for NearOptions {
+    fn default() -> Self {
+        Self { degrees: [3, 3], tolerance: 1e-6, max_poles: 10_000, corrections: 3, threads: 0 }
+    }
+}
+
+/// What is known of the distances of the data points from a shape.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Certificate {
+    /// No data point is farther from the shape than this.
+    pub worst: f64,
+    /// The data point with that distance.
+    pub worst_index: usize,
+    /// Some data point is at least that far from the shape: the greatest proven lower bound.
+    pub at_least: f64,
+    /// Root of the mean of the squared distances.
+    pub rms: f64,
+    /// Data points whose distance is an upper bound only: a nearer place was not excluded.
+    pub unproven: usize,
+}
+
+/// A shape near points, the parameters of their feet, and what is proven.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Near<S, P> {
+    /// The result.
+    pub shape: S,
+    /// The parameters of every point's foot.
+    pub parameters: Vec<P>,
+    /// The distances.
+    pub certificate: Certificate,
+}
+
+/// Asked now and then; true stops the work.
+pub type Poll<'a> = &'a mut dyn FnMut() -> bool;
+
+fn summary(feet: &[FootPoint]) -> Certificate {
+    let mut all = Certificate::default();
+    let mut sum = 0.0;
+    for (i, foot) in feet.iter().enumerate() {
+        sum += foot.distance * foot.distance;
+        all.at_least = all.at_least.max(foot.lower_bound);
+        all.unproven += usize::from(foot.flags & flag::NOT_PROVEN != 0);
+        if foot.distance > all.worst || i == 0 {
+            (all.worst, all.worst_index) = (foot.distance, i);
+        }
+    }
+    all.rms = (sum / feet.len() as f64).sqrt();
+    all
+}
+
+/// Feet of all points; `ask` answers for one.
+fn feet(
+    points: &[Vector],
+    threads: usize,
+    ask: &(dyn Fn(usize, &mut Workspace) -> FootPoint + Sync),
+    poll: Poll,
+) -> Result<Vec<FootPoint>, Error> {
+    let mut out = Vec::new();
+    out.try_reserve_exact(points.len()).map_err(|_| Error::OutOfMemory)?;
+    out.resize(points.len(), FootPoint::unreached());
+    batch::run(&mut out, threads, None, ask, &mut |_| poll())?;
+    Ok(out)
+}
+
+const LOCAL: QueryOptions = QueryOptions {
+    tolerance: 0.0,
+    accuracy: 0.0,
+    method: crate::refine::Method::Auto,
+    scope: Scope::Local,
+    domain: None,
+    budget: 0,
+};
+
+fn check_options(options: &NearOptions, directions: usize) -> Result<(), Error> {
+    let refuse = |text: String| Err(Error::InvalidArgument(text));
+    for (k, &degree) in options.degrees[..directions].iter().enumerate() {
+        if degree == 0 || degree > MAX_DEGREE {
+            let name = if directions == 1 { "" } else { ["_u", "_v"][k] };
+            return refuse(format!("degree{name}: {degree} given, 1 to {MAX_DEGREE} accepted"));
+        }
+    }
+    let needed: usize = options.degrees[..directions].iter().map(|p| p + 1).product();
+    if options.max_poles < needed {
+        return refuse(format!("max_poles: {} given, at least {needed} needed", options.max_poles));
+    }
+    if !(options.tolerance > 0.0 && options.tolerance.is_finite()) {
+        return refuse(format!("tolerance: {} is not positive and finite", options.tolerance));
+    }
+    Ok(())
+}
+
+/// A curve near `points`, from the first to the last, which are its ends. `parameters` (not decreasing) are where the search begins:
+/// chordal ones will do. Knots are added until every point is within the tolerance of the curve; where that is not reached
+/// [`Certificate::worst`] is above it.
+///
+/// # Errors
+/// What is not allowed, by name and index; [`Error::Cancelled`] when `poll` said so.
+pub fn curve_near(
+    points: &[Vector],
+    parameters: &[f64],
+    options: &NearOptions,
+    poll: Poll,
+) -> Result<Near<Curve, f64>, Error> {
+    check_options(options, 1)?;
+    check_points(points, 2)?;
+    check_parameters(parameters, points.len())?;
+    let degree = options.degrees[0];
+    let (start, end) = (parameters[0], parameters[points.len() - 1]);
+    let adaptive = Adaptive { degree, tolerance: options.tolerance, ..Adaptive::default() };
+    adaptive.check([start, end])?;
+    let mut values = adaptive.first_knots([start, end]);
+    let limit = options.max_poles.min(points.len());
+    let mut at = parameters.to_vec();
+    let mut kept: Option<(Curve, Vec<f64>, f64)> = None;
+    let curve_of = |at: &[f64], values: &[f64]| {
+        let knots =
+            Knots::new(values, degree, values.len() - degree - 1).map_err(|e| e.named(""))?;
+        // In the order of the parameters: feet of neighbours may change places.
+        let mut order: Vec<usize> = (0..at.len()).collect();
+        order.sort_by(|&a, &b| at[a].total_cmp(&at[b]));
+        // The ends stay the ends, whatever else has come to their parameters.
+        order.retain(|&i| i != 0 && i + 1 != at.len());
+        order.insert(0, 0);
+        order.push(at.len() - 1);
+        let sorted: Vec<f64> = order.iter().map(|&i| at[i]).collect();
+        let list: Vec<Vector> = order.iter().map(|&i| points[i]).collect();
+        fitted(knots, &sorted, &list, Ends::Interpolated)?.spline.curve()
+    };
+    loop {
+        let mut curve = match (curve_of(&at, &values), &kept) {
+            (Ok(curve), _) => curve,
+            (Err(_), Some(_)) => break,
+            (Err(error), None) => return Err(error),
+        };
+        let mut missed = missed_by(&curve, points, &at);
+        for _ in 0..options.corrections {
+            if worst(&missed) <= options.tolerance {
+                break;
+            }
+            let shape = IndexedCurve::new(curve.clone());
+            let ask = |i: usize, workspace: &mut Workspace| {
+                shape.closest(points[i], Some(at[i]), &LOCAL, workspace, None)
+            };
+            let found = feet(points, options.threads, &ask, poll)?;
+            let mut next = at.clone();
+            for i in 1..points.len() - 1 {
+                if found[i].distance < missed[i] {
+                    next[i] = found[i].u;
+                }
+            }
+            // The feet alone never make it worse; the new fit may.
+            (at, missed) =
+                (next, missed.iter().zip(&found).map(|(m, f)| m.min(f.distance)).collect());
+            let Ok(again) = curve_of(&at, &values) else { break };
+            let now = missed_by(&again, points, &at);
+            if worst(&now) >= worst(&missed) {
+                break;
+            }
+            (curve, missed) = (again, now);
+        }
+        let error = worst(&missed);
+        let done = error <= options.tolerance;
+        let knots = curve.knots().clone();
+        if kept.as_ref().is_none_or(|kept| error < kept.2) {
+            kept = Some((curve, at.clone(), error));
+        }
+        if done {
+            break;
+        }
+        let mut order: Vec<usize> = (0..at.len()).collect();
+        order.sort_by(|&a, &b| at[a].total_cmp(&at[b]));
+        let sorted: Vec<f64> = order.iter().map(|&i| at[i]).collect();
+        let sorted_missed: Vec<f64> = order.iter().map(|&i| missed[i]).collect();
+        let room = limit.saturating_sub(knots.pole_count());
+        let new = cuts(&knots, &sorted, &sorted_missed, &adaptive, room);
+        if new.is_empty() {
+            break;
+        }
+        values.extend(new);
+        values.sort_by(f64::total_cmp);
+    }
+    let Some((curve, at, _)) = kept else {
+        return Err(Error::InvalidArgument("points: no curve".into()));
+    };
+    let shape = IndexedCurve::new(curve);
+    let global = QueryOptions::default();
+    let ask = |i: usize, workspace: &mut Workspace| {
+        shape.closest(points[i], Some(at[i]), &global, workspace, None)
+    };
+    let found = feet(points, options.threads, &ask, poll)?;
+    let parameters = found.iter().map(|foot| foot.u).collect();
+    Ok(Near { shape: shape.curve().clone(), parameters, certificate: summary(&found) })
+}
+
+fn worst(missed: &[f64]) -> f64 {
+    missed.iter().fold(0.0, |a, b| a.max(*b))
+}
+
+fn missed_by(curve: &Curve, points: &[Vector], at: &[f64]) -> Vec<f64> {
+    points.iter().zip(at).map(|(p, &t)| norm(curve.vector_from(*p, t))).collect()
+}
+
+/// The distances of points from a surface, with proof; `hints` are parameters near their feet.
+///
+/// # Errors
+/// [`Error::Cancelled`] when `poll` said so; memory that could not be had.
+pub fn certify(
+    surface: &IndexedSurface,
+    points: &[Vector],
+    hints: Option<&[[f64; 2]]>,
+    threads: usize,
+    poll: Poll,
+) -> Result<(Vec<[f64; 2]>, Certificate), Error> {
+    check_points(points, 1)?;
+    surface.prepare(&mut || false)?;
+    let options = QueryOptions::default();
+    let ask = |i: usize, workspace: &mut Workspace| {
+        surface.closest(points[i], hints.map(|h| h[i]), &options, workspace, None)
+    };
+    let found = feet(points, threads, &ask, poll)?;
+    Ok((found.iter().map(|foot| [foot.u, foot.v]).collect(), summary(&found)))
+}
+
+/// Parameters in the plane that is nearest to the points, along its directions of greatest and least extent.
+///
+/// # Errors
+/// Fewer than three points, or points that are not finite; points on a line.
+pub fn plane_parameters(points: &[Vector]) -> Result<Vec<[f64; 2]>, Error> {
+    check_points(points, 3)?;
+    let size = points.iter().fold(0.0, |size: f64, p| size.max(norm(sub(*p, points[0]))));
+    let part = |p: &Vector| sub(*p, points[0]).map(|x| x / size / points.len() as f64);
+    let middle =
+        points.iter().map(part).fold([0.0; 3], |a, b| [a[0] + b[0], a[1] + b[1], a[2] + b[2]]);
+    let local = |p: &Vector| sub(sub(*p, points[0]).map(|x| x / size), middle);
+    let mut square = [[0.0; 3]; 3];
+    points.iter().for_each(|p| add_square(&mut square, &local(p)));
+    let line = || Error::InvalidArgument("points: they lie on a line".into());
+    let normal = least_direction(&square).ok_or_else(line)?;
+    let [e, f, _] = any_frame(normal);
+    let flat = |p: &Vector| [dot(local(p), e), dot(local(p), f)];
+    let [xx, xy, yy] = points
+        .iter()
+        .map(flat)
+        .fold([0.0; 3], |sum, [x, y]| [sum[0] + x * x, sum[1] + x * y, sum[2] + y * y]);
+    let (sine, cosine) = (0.5 * (2.0 * xy).arctangent_over(xx - yy)).sine_cosine();
+    let turned = |p: &Vector| {
+        let [x, y] = flat(p);
+        [cosine * x + sine * y, cosine * y - sine * x]
+    };
+    let list: Vec<[f64; 2]> = points.iter().map(turned).collect();
+    if list.iter().all(|p| p[1].abs() < 1e-12) || list.iter().any(|p| !p[0].is_finite()) {
+        return Err(line());
+    }
+    Ok(list)
+}
+
+/// A surface near `points` in any order. `parameters` are where the search begins (from [`plane_parameters`], from a grid, or from feet on a
+/// surface that is roughly there); their box is the domain. Knots are added until every point is within the tolerance of the surface;
+/// where that is not reached [`Certificate::worst`] is above it. Where there are no points the surface runs smoothly on.
+///
+/// # Errors
+/// What is not allowed, by name and index; [`Error::Cancelled`] when `poll` said so.
+pub fn surface_near(
+    points: &[Vector],
+    parameters: &[[f64; 2]],
+    options: &NearOptions,
+    poll: Poll,
+) -> Result<Near<Surface, [f64; 2]>, Error> {
+    check_options(options, 2)?;
+    check_points(points, 4)?;
+    let refuse = |text: String| Err(Error::InvalidArgument(text));
+    if parameters.len() != points.len() {
+        return refuse(format!(
+            "parameters: {} given, {} expected",
+            parameters.len(),
+            points.len()
+        ));
+    }
+    if let Some(i) = parameters.iter().position(|at| at.iter().any(|x| !x.is_finite())) {
+        return refuse(format!("parameters: parameter {i} is not finite"));
+    }
+    let mut at = parameters.to_vec();
+    let mut values = [0, 1].map(|k| {
+        let low = at.iter().fold(f64::INFINITY, |m, x| m.min(x[k]));
+        let high = at.iter().fold(f64::NEG_INFINITY, |m, x| m.max(x[k]));
+        let ends = |u| std::iter::repeat_n(u, options.degrees[k] + 1);
+        ends(low).chain(ends(high)).collect::<Vec<f64>>()
+    });
+    let limit = options.max_poles.min(points.len());
+    let mut kept: Option<(Surface, Vec<[f64; 2]>, f64)> = None;
+    loop {
+        let (mut surface, mut missed) = surface_of(points, &at, &values, options.degrees)?;
+        for _ in 0..options.corrections {
+            if worst(&missed) <= options.tolerance {
+                break;
+            }
+            let shape = IndexedSurface::new(surface.clone());
+            shape.prepare(&mut || false)?;
+            let ask = |i: usize, workspace: &mut Workspace| {
+                shape.closest(points[i], Some(at[i]), &LOCAL, workspace, None)
+            };
+            let found = feet(points, options.threads, &ask, poll)?;
+            for (i, foot) in found.iter().enumerate() {
+                if foot.distance < missed[i] {
+                    (at[i], missed[i]) = ([foot.u, foot.v], foot.distance);
+                }
+            }
+            let before = worst(&missed);
+            if before <= options.tolerance {
+                break;
+            }
+            let (again, now) = surface_of(points, &at, &values, options.degrees)?;
+            if worst(&now) >= before {
+                break;
+            }
+            (surface, missed) = (again, now);
+        }
+        let error = worst(&missed);
+        let done = error <= options.tolerance;
+        let more = if done {
+            [Vec::new(), Vec::new()]
+        } else {
+            new_knots(&surface, &at, &missed, options, limit)
+        };
+        if kept.as_ref().is_none_or(|kept| error < kept.2) {
+            kept = Some((surface, at.clone(), error));
+        }
+        if more.iter().all(Vec::is_empty) {
+            break;
+        }
+        for (values, more) in values.iter_mut().zip(more) {
+            values.extend(more);
+            values.sort_by(f64::total_cmp);
+        }
+    }
+    let Some((surface, at, _)) = kept else { return refuse("points: no surface".into()) };
+    let shape = IndexedSurface::new(surface);
+    let (parameters, certificate) = certify(&shape, points, Some(&at), options.threads, poll)?;
+    Ok(Near { shape: shape.surface().clone(), parameters, certificate })
+}
+
+/// The surface of least squares at parameters, and the distances there.
+fn surface_of(
+    points: &[Vector],
+    at: &[[f64; 2]],
+    values: &[Vec<f64>; 2],
+    degrees: [usize; 2],
+) -> Result<(Surface, Vec<f64>), Error> {
+    let knots = |k: usize| {
+        let count = values[k].len() - degrees[k] - 1;
+        Knots::new(&values[k], degrees[k], count).map_err(|e| e.named(["_u", "_v"][k]))
+    };
+    let design = Design::new([knots(0)?, knots(1)?], at)?;
+    let center = points[0];
+    let poles = design.solve(points, center)?;
+    let list: Vec<Vector> =
+        poles.iter().map(|p| std::array::from_fn(|x| p[x] + center[x])).collect();
+    let counts = [0, 1].map(|k| values[k].len() - degrees[k] - 1);
+    let surface = Surface::new(
+        &values[0], &values[1], degrees[0], degrees[1], &list, counts[0], counts[1], None,
+    )?;
+    let missed = points.iter().zip(at).map(|(p, t)| norm(surface.vector_from(*p, t[0], t[1])));
+    let missed = missed.collect();
+    Ok((surface, missed))
+}
+
+/// New knots in the middle of spans: in the cells that miss a point, across their longer side, or both when they are nearly square.
+fn new_knots(
+    surface: &Surface,
+    at: &[[f64; 2]],
+    missed: &[f64],
+    options: &NearOptions,
+    limit: usize,
+) -> [Vec<f64>; 2] {
+    let knots = [surface.knots_u(), surface.knots_v()];
+    let counts = knots.map(Knots::pole_count);
+    let mut wanted = [0, 1].map(|k| vec![0.0f64; counts[k]]);
+    for (at, &missed) in at.iter().zip(missed).filter(|(_, m)| **m > options.tolerance) {
+        let span = [0, 1].map(|k| knots[k].span(at[k]));
+        let length = |k: usize| knots[k].values()[span[k] + 1] - knots[k].values()[span[k]];
+        let mut partials = [[0.0; 3]; 3];
+        surface.partials(at[0], at[1], 1, &mut partials);
+        let sides = [norm(partials[1]) * length(0), norm(partials[2]) * length(1)];
+        for k in 0..2 {
+            if 1.5 * sides[k] >= sides[1 - k] {
+                wanted[k][span[k]] = wanted[k][span[k]].max(missed);
+            }
+        }
+    }
+    let mut list: Vec<(f64, usize, usize)> = Vec::new();
+    for (k, wanted) in wanted.iter().enumerate() {
+        let spans = wanted.iter().enumerate().filter(|(_, missed)| **missed > 0.0);
+        list.extend(spans.map(|(span, &missed)| (missed, k, span)));
+    }
+    list.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let (mut grown, mut out) = (counts, [Vec::new(), Vec::new()]);
+    for (_, k, span) in list {
+        if (grown[k] + 1).saturating_mul(grown[1 - k]) > limit {
+            continue;
+        }
+        let [low, high] = [knots[k].values()[span], knots[k].values()[span + 1]];
+        let (start, end) = knots[k].domain();
+        // A span that thin holds no detail: the points contradict each other there.
+        if high - low > 1e-6 * (end - start) {
+            out[k].push(0.5 * low + 0.5 * high);
+            grown[k] += 1;
+        }
+    }
+    out
+}
