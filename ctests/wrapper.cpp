@@ -633,6 +633,27 @@ void versions_agree() {
     CHECK(footpoint::version() == FPT_VERSION && footpoint::abi_version() == FPT_ABI_VERSION);
 }
 
+void operations_are_those_of_the_c_api() {
+    namespace operate = footpoint::operate;
+    const curve cubic(cubic_curve());
+    const std::vector<double> added = {0.1, 0.6};
+    const curve finer = operate::refine(cubic, added);
+    CHECK(finer.pole_count() == cubic.pole_count() + 2);
+    CHECK(operate::difference(cubic, finer).bound < 1e-12);
+    const auto thin = operate::simplify(finer, 1e-9);
+    CHECK(thin.error < 1e-9 && thin.shape.pole_count() == cubic.pole_count());
+    CHECK(operate::reduce(operate::elevate(cubic)).error < 1e-12);
+    const auto halves = operate::split(cubic, 0.4);
+    CHECK(operate::difference(cubic, operate::join({&halves.first, &halves.second}, 1e-9).shape).bound < 1e-12);
+    CHECK(operate::difference(cubic, operate::reverse(operate::reverse(cubic))).bound < 1e-12);
+    CHECK(operate::make_compatible({&cubic, &finer})[0].pole_count() == finer.pole_count());
+    const operate::arc_length length(cubic);
+    const fpt_estimate u = length.parameter(0.5 * length.total().value);
+    CHECK_NEAR(length.at(u.value).value, 0.5 * length.total().value, u.error + length.total().error);
+    CHECK(operate::continuity(cubic).size() == 3 && operate::frame(cubic, 0.5).speed > 0);
+    check_thrown([&] { operate::elevate(cubic, 40); }, FPT_INVALID_ARGUMENT, "degree");
+}
+
 } // namespace
 
 int main() {
@@ -653,6 +674,7 @@ int main() {
     RUN(misuse_throws);
     RUN(weights_are_those_of_the_c_api);
     RUN(trims_are_those_of_the_c_api);
+    RUN(operations_are_those_of_the_c_api);
     RUN(fits_and_constructions_are_those_of_the_c_api);
     RUN(pcurves_and_faces_are_those_of_the_c_api);
     RUN(surfaces_meet_in_branches);

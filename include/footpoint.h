@@ -844,9 +844,29 @@ typedef enum fpt_inspect_kind {
 } fpt_inspect_kind;
 
 /**
+ * A parameter direction of a surface.
+ */
+typedef enum fpt_direction {
+    /**
+     * The first parameter.
+     */
+    FPT_DIRECTION_U = 0,
+    /**
+     * The second parameter.
+     */
+    FPT_DIRECTION_V = 1,
+} fpt_direction;
+
+/**
  * All numbers from `low` to `high`.
  */
 typedef struct Interval Interval;
+
+/**
+ * The arc length of a curve as a function of its parameter. Immutable: any number of threads may use one at a time. Owned by the caller,
+ * released by fpt_arc_length_free; the curve may be released before.
+ */
+typedef struct fpt_arc_length fpt_arc_length;
 
 /**
  * A curve. Immutable: any number of threads may use one at a time. The search index is built on first
@@ -1558,6 +1578,110 @@ typedef struct fpt_weights_conic_shape {
      */
     double eccentricity;
 } fpt_weights_conic_shape;
+
+/**
+ * The greatest distance of two shapes at equal parameters, between two numbers: 32 bytes, frozen.
+ */
+typedef struct fpt_difference {
+    /**
+     * No points at equal parameters are farther apart. Proven. Bounds the Hausdorff distance too.
+     */
+    double bound;
+    /**
+     * The points at (u, v) are at least so far apart.
+     */
+    double reached;
+    /**
+     * Where, nearly the worst place.
+     */
+    double u;
+    /**
+     * Curves: 0.
+     */
+    double v;
+} fpt_difference;
+
+/**
+ * A number and how far it may be from the true one: 16 bytes, frozen.
+ */
+typedef struct fpt_estimate {
+    /**
+     * The number.
+     */
+    double value;
+    /**
+     * The true one is not farther from it. Proven.
+     */
+    double error;
+} fpt_estimate;
+
+/**
+ * The moving frame of a curve: 120 bytes, frozen. NaN marks what is not defined.
+ */
+typedef struct fpt_curve_frame_record {
+    /**
+     * The point.
+     */
+    double point[3];
+    /**
+     * Unit tangent; NaN where the first derivative is 0.
+     */
+    double tangent[3];
+    /**
+     * Unit vector to the centre of curvature; NaN where the curve is straight.
+     */
+    double normal[3];
+    /**
+     * Tangent x normal.
+     */
+    double binormal[3];
+    /**
+     * Length of the first derivative.
+     */
+    double speed;
+    /**
+     * 1 / length, >= 0.
+     */
+    double curvature;
+    /**
+     * 1 / length, positive for right-handed screws; NaN where the curve is straight.
+     */
+    double torsion;
+} fpt_curve_frame_record;
+
+/**
+ * How the pieces of a curve meet at a knot: 48 bytes, frozen.
+ */
+typedef struct fpt_joint {
+    /**
+     * The knot; the seam of a closed curve is reported at the end of the domain.
+     */
+    double u;
+    /**
+     * How often it is a knot.
+     */
+    uint32_t multiplicity;
+    /**
+     * The highest order to which all derivatives agree; 0 is a mere join.
+     */
+    uint32_t order;
+    /**
+     * Length of the gap between the pieces.
+     */
+    double gap;
+    /**
+     * Length of the jump of the first derivative.
+     */
+    double first_jump;
+    /**
+     * Angle of the tangents in radians; NaN beside a cusp.
+     */
+    double tangent_angle;
+    /**
+     * Length of the jump of the curvature vector, 1 / length; NaN beside a cusp.
+     */
+    double curvature_jump;
+} fpt_joint;
 
 /**
  * How to fit. Fill it with fpt_fit_options_init, then change what matters. All zero after struct_size is the default of everything
@@ -4259,6 +4383,674 @@ fpt_status fpt_weights_positive_form(size_t degree,
                                      const double *knots,
                                      const double *poles,
                                      struct fpt_curve **out);
+
+/**
+ * The same curve with more knots. Exact.
+ *
+ * @param values  knots to add, in any order, each as often as it stands; in the domain. The ends may then be knots degree + 1 times,
+ *                others degree times
+ * @param out  the new curve; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_refine(const struct fpt_curve *curve,
+                            const double *values,
+                            size_t value_count,
+                            struct fpt_curve **out);
+
+/**
+ * The curve without some copies of a knot.
+ *
+ * @param u      a knot inside the domain
+ * @param times  at most how often it is a knot
+ * @param out_error  the proven error, a length; NULL: not wanted
+ * @param out  the new curve; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_remove_knot(const struct fpt_curve *curve,
+                                 double u,
+                                 size_t times,
+                                 double *out_error,
+                                 struct fpt_curve **out);
+
+/**
+ * The curve without the knots that are not needed to stay within a tolerance; the one whose removal changes least goes first.
+ *
+ * @param tolerance  length, finite, >= 0; the error is at most that
+ * @param out_error  the proven error, a length; NULL: not wanted
+ * @param out  the new curve; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_simplify(const struct fpt_curve *curve,
+                              double tolerance,
+                              double *out_error,
+                              struct fpt_curve **out);
+
+/**
+ * The part of the curve between two parameters, clamped, with its parameters. Exact.
+ *
+ * @param start  in the domain
+ * @param end    in the domain, greater than start
+ * @param out  the new curve; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_part(const struct fpt_curve *curve,
+                          double start,
+                          double end,
+                          struct fpt_curve **out);
+
+/**
+ * The same curve with clamped ends: the first and the last pole are its end points. Exact. Also the way back from fpt_curve_periodic.
+ *
+ * @param out  the new curve; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_clamp(const struct fpt_curve *curve,
+                           struct fpt_curve **out);
+
+/**
+ * The same curve with unclamped ends, knots outside the domain mirrored from those inside.
+ *
+ * @param out_error  the proven error, a length; NULL: not wanted
+ * @param out  the new curve; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_unclamp(const struct fpt_curve *curve,
+                             double *out_error,
+                             struct fpt_curve **out);
+
+/**
+ * The periodic form of a closed curve, unrolled: knots repeat after a period, poles after as many as a period has knots. The
+ * seam is the smoothest one that keeps the error within the tolerance.
+ *
+ * @param tolerance  length, finite, >= 0
+ * @return FPT_INVALID_ARGUMENT when the curve is not closed within the tolerance
+ * @param out_error  the proven error, a length; NULL: not wanted
+ * @param out  the new curve; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_periodic(const struct fpt_curve *curve,
+                              double tolerance,
+                              double *out_error,
+                              struct fpt_curve **out);
+
+/**
+ * The same curve with a higher degree; its smoothness at the knots stays. Exact.
+ *
+ * @param by  how many degrees more; the degree is at most 31
+ * @param out  the new curve; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_elevate(const struct fpt_curve *curve,
+                             size_t by,
+                             struct fpt_curve **out);
+
+/**
+ * The clamped curve of a degree lower by one that is nearest in its poles; exact where the curve is of that degree.
+ *
+ * @param out_error  the proven error, a length; NULL: not wanted
+ * @param out  the new curve; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_reduce(const struct fpt_curve *curve,
+                            double *out_error,
+                            struct fpt_curve **out);
+
+/**
+ * The same curve run through backwards, over the same domain. Exact.
+ *
+ * @param out  the new curve; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE fpt_status fpt_curve_reverse(const struct fpt_curve *curve, struct fpt_curve **out);
+
+/**
+ * The same curve over another domain, by an affine change of the parameter. Exact.
+ *
+ * @param start  finite
+ * @param end    finite, greater than start
+ * @param out  the new curve; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_with_domain(const struct fpt_curve *curve,
+                                 double start,
+                                 double end,
+                                 struct fpt_curve **out);
+
+/**
+ * The same curve, clamped, in a parameter that is a Moebius function of the old one, over the same domain. Exact; a polynomial curve becomes
+ * rational. With x and y the shares of the domain before the old and the new parameter: y = speed x / (1 + (speed - 1) x).
+ *
+ * @param speed  derivative of the new parameter by the old one at the start; finite, > 0
+ * @param out  the new curve; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_reparametrise(const struct fpt_curve *curve,
+                                   double speed,
+                                   struct fpt_curve **out);
+
+/**
+ * The curve of the points A (x, y, z, 1). Exact.
+ *
+ * @param matrix  12 finite numbers, 3 rows of 4; may be singular
+ * @param out  the new curve; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_affine(const struct fpt_curve *curve,
+                            const double *matrix,
+                            struct fpt_curve **out);
+
+/**
+ * The curve of the points (x', y', z') / w' with (x', y', z', w') = A (x, y, z, 1). Exact.
+ *
+ * @param matrix  16 finite numbers, 4 rows of 4
+ * @return FPT_UNSUPPORTED when poles lie on both sides of the plane that goes to infinity, or on it; refine the curve then
+ * @param out  the new curve; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_projective(const struct fpt_curve *curve,
+                                const double *matrix,
+                                struct fpt_curve **out);
+
+/**
+ * The derivative as a curve: of one degree less (at least 1), or of twice the degree if the curve is rational (degree up to 15). Exact.
+ *
+ * @return FPT_UNSUPPORTED when the derivative jumps at a knot, which is named
+ *
+ * @param out  the new curve; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_derivative(const struct fpt_curve *curve,
+                                struct fpt_curve **out);
+
+/**
+ * The same curve with knots of full multiplicity: piece i has the poles from i * degree to i * degree + degree. Exact.
+ *
+ * @param out  the new curve; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_bezier_form(const struct fpt_curve *curve,
+                                 struct fpt_curve **out);
+
+/**
+ * The parts of the curve before and behind a parameter. Exact.
+ *
+ * @param u  inside the domain
+ * @param out_before  the first part; release it with fpt_curve_free
+ * @param out_behind  the second part; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_split(const struct fpt_curve *curve,
+                           double u,
+                           struct fpt_curve **out_before,
+                           struct fpt_curve **out_behind);
+
+/**
+ * The curves as one, each beginning where the one before ends. Each keeps its speed: its domain is shifted. The knot where two meet is one degree
+ * times; fpt_curve_simplify takes out what is not needed.
+ *
+ * @param curves     live handles
+ * @param tolerance  length, finite, >= 0: a start may be so far from the end before it, and is moved there
+ * @param out_error  how far points move by that, proven; NULL: not wanted
+ * @param out        the new curve; release it with fpt_curve_free
+ * @return FPT_INVALID_ARGUMENT names the first curve that begins elsewhere
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_join(const struct fpt_curve *const *curves,
+                          size_t count,
+                          double tolerance,
+                          double *out_error,
+                          struct fpt_curve **out);
+
+/**
+ * The same curves, clamped, with one degree, one knot vector and the domain of the first; if one is rational, all have weights. Exact.
+ *
+ * @param curves  live handles, at least one
+ * @param out     room for count handles; release each with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_make_compatible(const struct fpt_curve *const *curves,
+                                     size_t count,
+                                     struct fpt_curve **out);
+
+/**
+ * How far two curves over the same domain are apart at equal parameters; degrees and knots may differ.
+ *
+ * @param curve  a spline
+ * @param other  a spline over the same domain
+ * @param out    bound and what is reached, within 0.1 % of each other but for rounding and rare shapes
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_difference(const struct fpt_curve *curve,
+                                const struct fpt_curve *other,
+                                struct fpt_difference *out);
+
+/**
+ * The same surface with more knots in a direction. Exact.
+ *
+ * @param direction  FPT_DIRECTION_U or FPT_DIRECTION_V
+ * @param values  as in fpt_curve_refine
+ * @param out  the new surface; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_refine(const struct fpt_surface *surface,
+                              uint32_t direction,
+                              const double *values,
+                              size_t value_count,
+                              struct fpt_surface **out);
+
+/**
+ * The surface without some copies of a knot.
+ *
+ * @param direction  FPT_DIRECTION_U or FPT_DIRECTION_V
+ * @param value  a knot inside the domain
+ * @param times  at most how often it is a knot
+ * @param out_error  the proven error, a length; NULL: not wanted
+ * @param out  the new surface; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_remove_knot(const struct fpt_surface *surface,
+                                   uint32_t direction,
+                                   double value,
+                                   size_t times,
+                                   double *out_error,
+                                   struct fpt_surface **out);
+
+/**
+ * The surface without the knots that are not needed to stay within a tolerance, first along u, then along v.
+ *
+ * @param tolerance  length, finite, >= 0; the error is at most that
+ * @param out_error  the proven error, a length; NULL: not wanted
+ * @param out  the new surface; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_simplify(const struct fpt_surface *surface,
+                                double tolerance,
+                                double *out_error,
+                                struct fpt_surface **out);
+
+/**
+ * The part of the surface over a rectangle of the domain, clamped, with its parameters. Exact.
+ *
+ * @param domain  u0, u1, v0, v1 in the domain, u0 < u1, v0 < v1
+ * @param out  the new surface; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_part(const struct fpt_surface *surface,
+                            const double *domain,
+                            struct fpt_surface **out);
+
+/**
+ * The same surface with clamped ends: its borders are rows and columns of poles. Exact. Also the way back from fpt_surface_periodic.
+ *
+ * @param out  the new surface; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_clamp(const struct fpt_surface *surface,
+                             struct fpt_surface **out);
+
+/**
+ * The same surface with unclamped ends in a direction, as fpt_curve_unclamp.
+ *
+ * @param direction  FPT_DIRECTION_U or FPT_DIRECTION_V
+ * @param out_error  the proven error, a length; NULL: not wanted
+ * @param out  the new surface; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_unclamp(const struct fpt_surface *surface,
+                               uint32_t direction,
+                               double *out_error,
+                               struct fpt_surface **out);
+
+/**
+ * The periodic form of a surface that is closed in a direction, as fpt_curve_periodic.
+ *
+ * @param direction  FPT_DIRECTION_U or FPT_DIRECTION_V
+ * @param tolerance  length, finite, >= 0
+ * @return FPT_INVALID_ARGUMENT when the surface is not closed within the tolerance
+ * @param out_error  the proven error, a length; NULL: not wanted
+ * @param out  the new surface; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_periodic(const struct fpt_surface *surface,
+                                uint32_t direction,
+                                double tolerance,
+                                double *out_error,
+                                struct fpt_surface **out);
+
+/**
+ * The same surface with a higher degree in a direction. Exact.
+ *
+ * @param direction  FPT_DIRECTION_U or FPT_DIRECTION_V
+ * @param by  how many degrees more; the degree is at most 31
+ * @param out  the new surface; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_elevate(const struct fpt_surface *surface,
+                               uint32_t direction,
+                               size_t by,
+                               struct fpt_surface **out);
+
+/**
+ * The clamped surface of a degree lower by one in a direction that is nearest in its poles.
+ *
+ * @param direction  FPT_DIRECTION_U or FPT_DIRECTION_V
+ * @param out_error  the proven error, a length; NULL: not wanted
+ * @param out  the new surface; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_reduce(const struct fpt_surface *surface,
+                              uint32_t direction,
+                              double *out_error,
+                              struct fpt_surface **out);
+
+/**
+ * The same surface with a direction run through backwards, over the same domain. Exact.
+ *
+ * @param direction  FPT_DIRECTION_U or FPT_DIRECTION_V
+ * @param out  the new surface; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_reverse(const struct fpt_surface *surface,
+                               uint32_t direction,
+                               struct fpt_surface **out);
+
+/**
+ * The same surface with its directions exchanged: new (v, u) is old (u, v). Exact.
+ *
+ * @param out  the new surface; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_swap(const struct fpt_surface *surface,
+                            struct fpt_surface **out);
+
+/**
+ * The same surface over another domain, by affine changes of both parameters. Exact.
+ *
+ * @param domain  u0, u1, v0, v1, finite, u0 < u1, v0 < v1
+ * @param out  the new surface; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_with_domain(const struct fpt_surface *surface,
+                                   const double *domain,
+                                   struct fpt_surface **out);
+
+/**
+ * The same surface, clamped, in a parameter that is a Moebius function of the old one, as fpt_curve_reparametrise. Exact.
+ *
+ * @param direction  FPT_DIRECTION_U or FPT_DIRECTION_V
+ * @param speed  finite, > 0
+ * @param out  the new surface; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_reparametrise(const struct fpt_surface *surface,
+                                     uint32_t direction,
+                                     double speed,
+                                     struct fpt_surface **out);
+
+/**
+ * The surface of the points A (x, y, z, 1). Exact.
+ *
+ * @param matrix  12 finite numbers, 3 rows of 4; may be singular
+ * @param out  the new surface; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_affine(const struct fpt_surface *surface,
+                              const double *matrix,
+                              struct fpt_surface **out);
+
+/**
+ * The surface of the points (x', y', z') / w', as fpt_curve_projective. Exact.
+ *
+ * @param matrix  16 finite numbers, 4 rows of 4
+ * @return FPT_UNSUPPORTED when poles lie on both sides of the plane that goes to infinity, or on it
+ * @param out  the new surface; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_projective(const struct fpt_surface *surface,
+                                  const double *matrix,
+                                  struct fpt_surface **out);
+
+/**
+ * The derivative in a direction as a surface: of one degree less in it (at least 1), or of twice the degrees if the surface is rational
+ * (degrees up to 15). Exact.
+ *
+ * @param direction  FPT_DIRECTION_U or FPT_DIRECTION_V
+ * @return FPT_UNSUPPORTED when the derivative jumps at a knot, which is named
+ * @param out  the new surface; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_derivative(const struct fpt_surface *surface,
+                                  uint32_t direction,
+                                  struct fpt_surface **out);
+
+/**
+ * The same surface with knots of full multiplicity: patch (i, j) has the poles from (i * degree_u, j * degree_v) on. Exact.
+ *
+ * @param out  the new surface; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_bezier_form(const struct fpt_surface *surface,
+                                   struct fpt_surface **out);
+
+/**
+ * The parts of the surface before and behind an isocurve. Exact.
+ *
+ * @param direction  FPT_DIRECTION_U or FPT_DIRECTION_V
+ * @param at  inside the domain
+ * @param out_before  the first part; release it with fpt_surface_free
+ * @param out_behind  the second part; release it with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_split(const struct fpt_surface *surface,
+                             uint32_t direction,
+                             double at,
+                             struct fpt_surface **out_before,
+                             struct fpt_surface **out_behind);
+
+/**
+ * The curve on the surface with one parameter fixed. Exact.
+ *
+ * @param direction  of the parameter that is fixed: FPT_DIRECTION_U or FPT_DIRECTION_V
+ * @param at   in the domain
+ * @param out  the curve, over the other parameter; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_isocurve(const struct fpt_surface *surface,
+                                uint32_t direction,
+                                double at,
+                                struct fpt_curve **out);
+
+/**
+ * The surfaces as one along a direction, each beginning where the one before ends, as fpt_curve_join. In the other direction all get the domain of
+ * the first.
+ *
+ * @param surfaces   live handles
+ * @param direction  FPT_DIRECTION_U or FPT_DIRECTION_V
+ * @param tolerance  length, finite, >= 0
+ * @param out_error  how far points move, proven; NULL: not wanted
+ * @param out        the new surface; release it with fpt_surface_free
+ * @return FPT_UNSUPPORTED when weights do not agree where two meet
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_join(const struct fpt_surface *const *surfaces,
+                            size_t count,
+                            uint32_t direction,
+                            double tolerance,
+                            double *out_error,
+                            struct fpt_surface **out);
+
+/**
+ * The same surfaces, clamped, with the same degrees, knot vectors and domain, as fpt_curve_make_compatible. Exact.
+ *
+ * @param surfaces  live handles, at least one
+ * @param out       room for count handles; release each with fpt_surface_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_make_compatible(const struct fpt_surface *const *surfaces,
+                                       size_t count,
+                                       struct fpt_surface **out);
+
+/**
+ * How far two surfaces over the same domain are apart at equal parameters; degrees and knots may differ.
+ *
+ * @param surface  a spline
+ * @param other    a spline over the same domain
+ * @param out      as in fpt_curve_difference
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_difference(const struct fpt_surface *surface,
+                                  const struct fpt_surface *other,
+                                  struct fpt_difference *out);
+
+/**
+ * Measures the arc length of a curve.
+ *
+ * @param tolerance  length, finite, >= 0: the proven error of the whole, or what rounding allows; 0: 1e-12 of the length
+ * @param out        the handle; release it with fpt_arc_length_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_arc_length_new(const struct fpt_curve *curve,
+                              double tolerance,
+                              struct fpt_arc_length **out);
+
+/**
+ * Releases an arc length. NULL is fine. No other call may use the handle during or after this one.
+ * @since 0.1
+ */
+void fpt_arc_length_free(struct fpt_arc_length *length);
+
+/**
+ * The length of the whole curve.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_arc_length_total(const struct fpt_arc_length *length,
+                                struct fpt_estimate *out);
+
+/**
+ * The lengths from the start of the curve to parameters.
+ *
+ * @param parameters  in the domain; the error names the first that is not
+ * @param out         count records
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_arc_length_at(const struct fpt_arc_length *length,
+                             const double *parameters,
+                             size_t count,
+                             struct fpt_estimate *out);
+
+/**
+ * The parameters of lengths from the start of the curve.
+ *
+ * @param lengths  0 to the length of the curve; the error names the first that is not
+ * @param out      count records: a parameter, and as its error a length, how far the length to there may be from the wanted one
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_arc_length_parameters(const struct fpt_arc_length *length,
+                                     const double *lengths,
+                                     size_t count,
+                                     struct fpt_estimate *out);
+
+/**
+ * Tangent, normals, curvature and torsion of a curve.
+ *
+ * @param u     in the domain
+ * @param side  -1: of the piece that ends there, where u is a knot; else of the one that begins there
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_frame(const struct fpt_curve *curve,
+                           double u,
+                           int32_t side,
+                           struct fpt_curve_frame_record *out);
+
+/**
+ * How the pieces of a curve meet at its knots inside the domain and, if it is closed, at the seam.
+ *
+ * @param tolerance  0 to 1: a jump of a derivative counts beyond this share of what the derivative can be; 1e-9 is a good choice
+ * @param capacity   room in out; one record a knot value is enough
+ * @param out_count  the number of records, also when there is not room for all
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_continuity(const struct fpt_curve *curve,
+                                double tolerance,
+                                size_t capacity,
+                                struct fpt_joint *out,
+                                size_t *out_count);
+
+/**
+ * The powers of a local parameter t, 0 to 1 on each span of the domain: w x, w y, w z, w of t^k of span i at 4 * (i * (degree + 1) + k). The ends of
+ * the spans are the knots of the domain, each once. Loses digits as the degree grows.
+ *
+ * @param capacity   room in out, in numbers
+ * @param out_count  how many there are: 4 * spans * (degree + 1); FPT_INVALID_ARGUMENT when there is not room for all
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_power(const struct fpt_curve *curve,
+                           size_t capacity,
+                           double *out,
+                           size_t *out_count);
+
+/**
+ * The Bezier curve of powers of a local parameter, 0 at start and 1 at end.
+ *
+ * @param coefficients  4 * (degree + 1) numbers: w x, w y, w z, w of t^k; polynomial: w is 1 for k = 0, else 0
+ * @param out           the curve; release it with fpt_curve_free
+ * @return FPT_UNSUPPORTED when a Bezier weight is not positive
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_from_power(size_t degree,
+                                double start,
+                                double end,
+                                const double *coefficients,
+                                struct fpt_curve **out);
 
 /**
  * Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.

@@ -1634,6 +1634,217 @@ private:
     std::unique_ptr<fpt_trim, deleter> handle_;
 };
 
+/** Operations that make new shapes; `operate::bounded` is a shape and a proven error. Directions are FPT_DIRECTION_U and FPT_DIRECTION_V. */
+namespace operate {
+
+template <class Shape>
+struct bounded {
+    Shape shape;
+    /** No point is farther from the old one at the same parameters. */
+    double error;
+};
+
+/** The curve that a call makes, given room for a handle. */
+template <class Call>
+curve make_curve(Call call) {
+    fpt_curve *out = nullptr;
+    check(call(&out));
+    return curve(out);
+}
+
+template <class Call>
+surface make_surface(Call call) {
+    fpt_surface *out = nullptr;
+    check(call(&out));
+    return surface(out);
+}
+
+/** The curve and the error that a call makes. */
+template <class Call>
+bounded<curve> bound_curve(Call call) {
+    double error = 0;
+    fpt_curve *out = nullptr;
+    check(call(&error, &out));
+    return {curve(out), error};
+}
+
+template <class Call>
+bounded<surface> bound_surface(Call call) {
+    double error = 0;
+    fpt_surface *out = nullptr;
+    check(call(&error, &out));
+    return {surface(out), error};
+}
+
+inline curve refine(const curve &c, span<const double> values) {
+    return make_curve([&](fpt_curve **out) { return fpt_curve_refine(c.get(), values.data(), values.size(), out); });
+}
+inline bounded<curve> remove_knot(const curve &c, double u, std::size_t times = 1) {
+    return bound_curve([&](double *error, fpt_curve **out) { return fpt_curve_remove_knot(c.get(), u, times, error, out); });
+}
+inline bounded<curve> simplify(const curve &c, double tolerance) {
+    return bound_curve([&](double *error, fpt_curve **out) { return fpt_curve_simplify(c.get(), tolerance, error, out); });
+}
+inline curve part(const curve &c, double start, double end) {
+    return make_curve([&](fpt_curve **out) { return fpt_curve_part(c.get(), start, end, out); });
+}
+inline std::pair<curve, curve> split(const curve &c, double u) {
+    fpt_curve *before = nullptr, *behind = nullptr;
+    check(fpt_curve_split(c.get(), u, &before, &behind));
+    return {curve(before), curve(behind)};
+}
+inline curve clamp(const curve &c) {
+    return make_curve([&](fpt_curve **out) { return fpt_curve_clamp(c.get(), out); });
+}
+inline bounded<curve> unclamp(const curve &c) {
+    return bound_curve([&](double *error, fpt_curve **out) { return fpt_curve_unclamp(c.get(), error, out); });
+}
+inline bounded<curve> periodic(const curve &c, double tolerance) {
+    return bound_curve([&](double *error, fpt_curve **out) { return fpt_curve_periodic(c.get(), tolerance, error, out); });
+}
+inline curve elevate(const curve &c, std::size_t by = 1) {
+    return make_curve([&](fpt_curve **out) { return fpt_curve_elevate(c.get(), by, out); });
+}
+inline bounded<curve> reduce(const curve &c) {
+    return bound_curve([&](double *error, fpt_curve **out) { return fpt_curve_reduce(c.get(), error, out); });
+}
+inline curve reverse(const curve &c) {
+    return make_curve([&](fpt_curve **out) { return fpt_curve_reverse(c.get(), out); });
+}
+inline curve with_domain(const curve &c, double start, double end) {
+    return make_curve([&](fpt_curve **out) { return fpt_curve_with_domain(c.get(), start, end, out); });
+}
+inline curve reparametrise(const curve &c, double speed) {
+    return make_curve([&](fpt_curve **out) { return fpt_curve_reparametrise(c.get(), speed, out); });
+}
+inline curve affine(const curve &c, const std::array<double, 12> &matrix) {
+    return make_curve([&](fpt_curve **out) { return fpt_curve_affine(c.get(), matrix.data(), out); });
+}
+inline curve projective(const curve &c, const std::array<double, 16> &matrix) {
+    return make_curve([&](fpt_curve **out) { return fpt_curve_projective(c.get(), matrix.data(), out); });
+}
+inline curve derivative(const curve &c) {
+    return make_curve([&](fpt_curve **out) { return fpt_curve_derivative(c.get(), out); });
+}
+inline curve bezier_form(const curve &c) {
+    return make_curve([&](fpt_curve **out) { return fpt_curve_bezier_form(c.get(), out); });
+}
+inline fpt_difference difference(const curve &a, const curve &b) {
+    fpt_difference out{};
+    check(fpt_curve_difference(a.get(), b.get(), &out));
+    return out;
+}
+inline bounded<curve> join(const std::vector<const curve *> &curves, double tolerance) {
+    std::vector<const fpt_curve *> list;
+    for (const curve *c : curves) list.push_back(c->get());
+    return bound_curve([&](double *error, fpt_curve **out) { return fpt_curve_join(list.data(), list.size(), tolerance, error, out); });
+}
+inline std::vector<curve> make_compatible(const std::vector<const curve *> &curves) {
+    std::vector<const fpt_curve *> list;
+    for (const curve *c : curves) list.push_back(c->get());
+    std::vector<fpt_curve *> out(list.size());
+    check(fpt_curve_make_compatible(list.data(), list.size(), out.data()));
+    std::vector<curve> owned;
+    owned.reserve(out.size());
+    for (fpt_curve *c : out) owned.emplace_back(c);
+    return owned;
+}
+inline fpt_curve_frame_record frame(const curve &c, double u, std::int32_t side = 1) {
+    fpt_curve_frame_record out{};
+    check(fpt_curve_frame(c.get(), u, side, &out));
+    return out;
+}
+inline std::vector<fpt_joint> continuity(const curve &c, double tolerance = 1e-9) {
+    std::vector<fpt_joint> out(c.pole_count() + c.degree() + 1);
+    std::size_t count = 0;
+    check(fpt_curve_continuity(c.get(), tolerance, out.size(), out.data(), &count));
+    out.resize(count);
+    return out;
+}
+
+inline surface refine(const surface &s, std::uint32_t direction, span<const double> values) {
+    return make_surface([&](fpt_surface **out) {
+        return fpt_surface_refine(s.get(), direction, values.data(), values.size(), out);
+    });
+}
+inline bounded<surface> remove_knot(const surface &s, std::uint32_t direction, double value, std::size_t times = 1) {
+    return bound_surface([&](double *error, fpt_surface **out) {
+        return fpt_surface_remove_knot(s.get(), direction, value, times, error, out);
+    });
+}
+inline bounded<surface> simplify(const surface &s, double tolerance) {
+    return bound_surface([&](double *error, fpt_surface **out) { return fpt_surface_simplify(s.get(), tolerance, error, out); });
+}
+inline surface part(const surface &s, const std::array<double, 4> &domain) {
+    return make_surface([&](fpt_surface **out) { return fpt_surface_part(s.get(), domain.data(), out); });
+}
+inline surface clamp(const surface &s) {
+    return make_surface([&](fpt_surface **out) { return fpt_surface_clamp(s.get(), out); });
+}
+inline bounded<surface> periodic(const surface &s, std::uint32_t direction, double tolerance) {
+    return bound_surface([&](double *error, fpt_surface **out) {
+        return fpt_surface_periodic(s.get(), direction, tolerance, error, out);
+    });
+}
+inline surface elevate(const surface &s, std::uint32_t direction, std::size_t by = 1) {
+    return make_surface([&](fpt_surface **out) { return fpt_surface_elevate(s.get(), direction, by, out); });
+}
+inline bounded<surface> reduce(const surface &s, std::uint32_t direction) {
+    return bound_surface([&](double *error, fpt_surface **out) { return fpt_surface_reduce(s.get(), direction, error, out); });
+}
+inline surface reverse(const surface &s, std::uint32_t direction) {
+    return make_surface([&](fpt_surface **out) { return fpt_surface_reverse(s.get(), direction, out); });
+}
+inline surface swap(const surface &s) {
+    return make_surface([&](fpt_surface **out) { return fpt_surface_swap(s.get(), out); });
+}
+inline surface derivative(const surface &s, std::uint32_t direction) {
+    return make_surface([&](fpt_surface **out) { return fpt_surface_derivative(s.get(), direction, out); });
+}
+inline curve isocurve(const surface &s, std::uint32_t direction, double at) {
+    return make_curve([&](fpt_curve **out) { return fpt_surface_isocurve(s.get(), direction, at, out); });
+}
+inline fpt_difference difference(const surface &a, const surface &b) {
+    fpt_difference out{};
+    check(fpt_surface_difference(a.get(), b.get(), &out));
+    return out;
+}
+
+/** The arc length of a curve: owner of an fpt_arc_length. */
+class arc_length {
+public:
+    explicit arc_length(const curve &c, double tolerance = 0) {
+        fpt_arc_length *out = nullptr;
+        check(fpt_arc_length_new(c.get(), tolerance, &out));
+        handle_.reset(out);
+    }
+    fpt_estimate total() const {
+        fpt_estimate out{};
+        check(fpt_arc_length_total(handle_.get(), &out));
+        return out;
+    }
+    /** The length from the start to `u`. */
+    fpt_estimate at(double u) const {
+        fpt_estimate out{};
+        check(fpt_arc_length_at(handle_.get(), &u, 1, &out));
+        return out;
+    }
+    /** The parameter of a length; its error is a length. */
+    fpt_estimate parameter(double length) const {
+        fpt_estimate out{};
+        check(fpt_arc_length_parameters(handle_.get(), &length, 1, &out));
+        return out;
+    }
+
+private:
+    struct deleter {
+        void operator()(fpt_arc_length *handle) const noexcept { fpt_arc_length_free(handle); }
+    };
+    std::unique_ptr<fpt_arc_length, deleter> handle_;
+};
+
+} // namespace operate
+
 /** fpt_fit_options that begin as the defaults, with a tolerance. */
 struct fit_options : fpt_fit_options {
     explicit fit_options(double wished = 0) noexcept : fpt_fit_options() {

@@ -14,6 +14,7 @@
 //!                   -> scene                                   scene.rs, scene_query.rs
 //!                   -> pcurve, face                            pcurve.rs, face.rs
 //!                   -> weights                                 weights.rs, weights_records.rs, weights_report.rs, weights_edit.rs
+//!                   -> operate                                 operate_curve.rs, operate_surface.rs, operate_measure.rs
 //!                   -> transform, trim                         transform.rs, support.rs, trim.rs, trim_parts.rs,
 //!                                                              trim_change.rs, trim_report.rs
 //!                   -> fair, inspect                          fair.rs, inspect_records.rs, inspect.rs
@@ -47,6 +48,9 @@ mod weights_records;
 mod weights_report;
 mod weights;
 mod weights_edit;
+mod operate_curve;
+mod operate_surface;
+mod operate_measure;
 mod fit;
 mod construct;
 mod construct_surface;

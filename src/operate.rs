@@ -18,7 +18,7 @@
 use crate::curve::Curve;
 use crate::curve::insertion::{Weighted, transposed};
 use crate::error::Error;
-use crate::knots::Knots;
+use crate::knots::{Knots, MAX_MAGNITUDE};
 use crate::surface::Surface;
 
 pub(crate) mod map;
@@ -35,8 +35,32 @@ mod reparametrisation;
 
 mod compatible;
 
+mod removal;
+
+mod least_squares;
+
+mod reduction;
+
+mod periodicity;
+
+mod joining;
+
+mod transformation;
+
+mod derivation;
+
+mod length;
+
+mod power;
+
+mod continuity;
+
 pub use compatible::{compatible_curves, compatible_surfaces};
+pub use continuity::{Crease, Frame, Joint};
 pub use difference::Difference;
+pub use joining::{join_curves, join_surfaces};
+pub use length::{ArcLength, Estimate};
+pub use power::{Coefficient, PowerCurve, PowerSurface};
 
 use map::Map;
 
@@ -120,4 +144,11 @@ impl Surface {
         let net = transposed(&self.rows()?, self.knots_v().pole_count())?;
         self.like(self.knots_v().clone(), self.knots_u().clone(), &net)
     }
+}
+
+fn check_tolerance(tolerance: f64) -> Result<(), Error> {
+    if (0.0..=MAX_MAGNITUDE).contains(&tolerance) {
+        return Ok(());
+    }
+    Err(Error::InvalidArgument(format!("tolerance: {tolerance} is negative or not finite")))
 }

@@ -139,6 +139,24 @@ class ChangeSummary(ctypes.Structure):
     _fields_ = [("deviation", c_double), ("surface_deviation", c_double), ("proven", c_uint32), ("reserved", c_uint32)]
 
 
+class Difference(ctypes.Structure):
+    _fields_ = [("bound", c_double), ("reached", c_double), ("u", c_double), ("v", c_double)]
+
+
+class Estimate(ctypes.Structure):
+    _fields_ = [("value", c_double), ("error", c_double)]
+
+
+class CurveFrame(ctypes.Structure):
+    _fields_ = [("point", c_double * 3), ("tangent", c_double * 3), ("normal", c_double * 3), ("binormal", c_double * 3),
+                ("speed", c_double), ("curvature", c_double), ("torsion", c_double)]
+
+
+class Joint(ctypes.Structure):
+    _fields_ = [("u", c_double), ("multiplicity", c_uint32), ("order", c_uint32), ("gap", c_double), ("first_jump", c_double),
+                ("tangent_angle", c_double), ("curvature_jump", c_double)]
+
+
 class TrimFinding(ctypes.Structure):
     _fields_ = [("kind", c_uint32), ("reserved", c_uint32), ("loop_index", c_size_t), ("coedge", c_size_t), ("parameter", c_double),
                 ("other_loop", c_size_t), ("other_coedge", c_size_t), ("other_parameter", c_double), ("numbers", c_double * 3)]
@@ -271,6 +289,7 @@ STRUCTS: dict[str, type[ctypes.Structure]] = {
     "fpt_relation_callback": RelationCallback, "fpt_elementary_data": ElementaryData, "fpt_coedge_data": CoedgeData,
     "fpt_loop_data": LoopData, "fpt_edge_data": EdgeData, "fpt_trim_data": TrimData, "fpt_change_options": ChangeOptions,
     "fpt_change_summary": ChangeSummary, "fpt_trim_finding": TrimFinding, "fpt_trim_summary": TrimSummary,
+    "fpt_difference": Difference, "fpt_estimate": Estimate, "fpt_curve_frame_record": CurveFrame, "fpt_joint": Joint,
     "fpt_deviation": Deviation, "fpt_pull_options": PullOptions, "fpt_lift_options": LiftOptions, "fpt_face_place": FacePlace,
     "fpt_face_data": FaceData,
     "fpt_intersect_surfaces_options": IntersectSurfacesOptions, "fpt_intersection_summary": IntersectionSummary,
@@ -329,6 +348,18 @@ _STATUS = {
     "trim_to_nurbs": "ppppp", "trim_to_elementary": "pppppp", "trim_follow": "ppppp", "trim_merge": "ppIppp",
     "trim_report_new": "pdp", "trim_report_summary": "pp", "trim_report_get": "pzp", "trim_to_json": "pzpp",
     "trim_from_json": "pzp", "trim_picture": "ppzpzpp",
+    "curve_refine": "ppzp", "curve_remove_knot": "pdzpp", "curve_simplify": "pdpp", "curve_part": "pddp", "curve_clamp": "pp",
+    "curve_unclamp": "ppp", "curve_periodic": "pdpp", "curve_elevate": "pzp", "curve_reduce": "ppp", "curve_reverse": "pp",
+    "curve_with_domain": "pddp", "curve_reparametrise": "pdp", "curve_affine": "ppp", "curve_projective": "ppp",
+    "curve_derivative": "pp", "curve_bezier_form": "pp", "curve_split": "pdpp", "curve_join": "pzdpp",
+    "curve_make_compatible": "pzp", "curve_difference": "ppp", "surface_refine": "pIpzp", "surface_remove_knot": "pIdzpp",
+    "surface_simplify": "pdpp", "surface_part": "ppp", "surface_clamp": "pp", "surface_unclamp": "pIpp",
+    "surface_periodic": "pIdpp", "surface_elevate": "pIzp", "surface_reduce": "pIpp", "surface_reverse": "pIp",
+    "surface_swap": "pp", "surface_with_domain": "ppp", "surface_reparametrise": "pIdp", "surface_affine": "ppp",
+    "surface_projective": "ppp", "surface_derivative": "pIp", "surface_bezier_form": "pp", "surface_split": "pIdpp",
+    "surface_isocurve": "pIdp", "surface_join": "pzIdpp", "surface_make_compatible": "pzp", "surface_difference": "ppp",
+    "arc_length_new": "pdp", "arc_length_total": "pp", "arc_length_at": "ppzp", "arc_length_parameters": "ppzp",
+    "curve_frame": "pdip", "curve_continuity": "pdzpp", "curve_power": "pzpp", "curve_from_power": "zddpp",
     "pcurve_pull": "pppp", "pcurve_set_count": "pp", "pcurve_set_get": "pzpp", "pcurve_lift": "ppppp", "pcurve_deviation": "pppp",
     "face_new": "pp", "face_of_trim": "pp", "face_classify": "ppzpp", "face_closest": "ppzppp", "face_preimage": "ppdpp",
     "intersect_surfaces": "pppp", "surface_intersection_summary": "pp", "surface_intersection_branch": "pzp",
@@ -346,7 +377,7 @@ _OTHER = {
     "weights_options_init": ("pz", None), "fit_options_init": ("pz", None), "sweep_options_init": ("pz", None), "weights_report_free": ("p", None), "curve_free": ("p", None),
     "surface_free": ("p", None), "foot_set_free": ("p", None), "scene_free": ("p", None),
     "change_options_init": ("pz", None), "relation_free": ("p", None), "transform_free": ("p", None), "support_free": ("p", None),
-    "trim_free": ("p", None), "trim_report_free": ("p", None),
+    "trim_free": ("p", None), "arc_length_free": ("p", None), "trim_report_free": ("p", None),
     "pull_options_init": ("pz", None), "lift_options_init": ("pz", None), "pcurve_set_free": ("p", None), "face_free": ("p", None),
     "intersect_surfaces_options_init": ("pz", None), "surface_intersection_free": ("p", None),
     "fair_options_init": ("pz", None), "fair_report_free": ("p", None), "inspect_options_init": ("pz", None),

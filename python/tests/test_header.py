@@ -9,7 +9,7 @@ import pytest
 from shapes import ROOT, circle, cloud, cylinder, hill
 
 import footpoint
-from footpoint import _face, _feet, _library, construct, fair, inspect, pcurve, trims, weights
+from footpoint import _face, _feet, _library, construct, fair, inspect, operate, pcurve, trims, weights
 
 HEADER = re.sub(r"/\*.*?\*/", "", (ROOT / "include" / "footpoint.h").read_text(encoding="utf-8"), flags=re.S)
 SCALARS = {"size_t": ctypes.c_size_t, "double": ctypes.c_double, "uint32_t": ctypes.c_uint32, "int32_t": ctypes.c_int32,
@@ -67,7 +67,7 @@ def test_structs():
                                           (footpoint.Standing, "FPT_FACE_"), (footpoint.BranchEnd, "FPT_BRANCH_END_"),
                                           (footpoint.ContactKind, "FPT_CONTACT_"), (fair.Method, "FPT_FAIR_"),
                                           (inspect.Quantity, "FPT_QUANTITY_"), (inspect.Pattern, "FPT_PATTERN_"),
-                                          (inspect.Kind, "FPT_PLACE_")])
+                                          (inspect.Kind, "FPT_PLACE_"), (operate.Direction, "FPT_DIRECTION_")])
 def test_enums(enum: type[Enum], prefix):
     listed = {name: int(value) for name, value in re.findall(rf"^\s*{prefix}(\w+) = (\d+),", HEADER, re.M)}
     assert listed == {name: int(member) for name, member in enum.__members__.items()}
@@ -111,6 +111,26 @@ def reach_trims():
     left.merge(right, "u", parts[2])
 
 
+def reach_operate(curve, surface):
+    matrix, middle = np.eye(4), {curve: 0.5, surface: 0.5}
+    for shape, where in ((curve, ()), (surface, ("v",))):
+        finer = operate.refine(shape, [0.25], *where)
+        operate.remove_knot(finer, 0.25, 1, *where), operate.simplify(shape, 1e-9), operate.clamp(shape), operate.unclamp(shape, *where)
+        operate.elevate(shape, 1, *where), operate.reduce(operate.elevate(shape, 1, *where), *where), operate.reverse(shape, *where)
+        ends = np.ravel(shape.domain)
+        operate.with_domain(shape, ends), operate.part(shape, ends), operate.reparametrise(shape, 2, *where)
+        operate.affine(shape, matrix[:3]), operate.projective(shape, matrix), operate.derivative(shape, *where)
+        halves = operate.split(shape, middle[shape], *where)
+        whole, error = operate.join(halves, 1e-9, *where)
+        assert operate.difference(shape, whole).bound < 1e-12 and error < 1e-12
+        assert operate.difference(shape, operate.bezier_form(shape)).bound < 1e-12
+        operate.make_compatible([shape, finer])
+    operate.periodic(curve, 1e-9), operate.periodic(surface, 1e-9, "u"), operate.swap(surface), operate.isocurve(surface, 0.5, "v")
+    operate.frame(curve, 0.5), operate.continuity(curve), operate.from_power(operate.power(curve)[0], [0, 1])
+    length = operate.ArcLength(curve)
+    length.total, length.at([0.5]), length.parameters([0.5])
+
+
 def test_every_function_is_reached(monkeypatch):
     reached = set()
 
@@ -151,6 +171,7 @@ def test_every_function_is_reached(monkeypatch):
     weights.of_rho(0.5), weights.of_eccentricity(arch.poles, 1), weights.normalise([1, 2]), weights.bound([1, 2], 1.5)
     weights.standard_form(arch), weights.positive_form(1, [0, 0, 1, 1], [[0, 0, 0, 1], [1, 0, 0, 1]])
     reach_trims()
+    reach_operate(curve, surface)
     reach_constructions()
     line = footpoint.Curve.from_poles(1, [[0, 0], [1, 1]])
     (pulled, _), = pcurve.pull(hill(), pcurve.lift(hill(), line)[0])

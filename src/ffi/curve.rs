@@ -80,7 +80,7 @@ pub(super) unsafe fn indexed<'a>(curve: *const fpt_curve) -> Result<&'a IndexedC
 ///
 /// # Safety
 /// NULL or a live handle.
-unsafe fn plain<'a>(curve: *const fpt_curve) -> Result<&'a Curve, Failure> {
+pub(super) unsafe fn plain<'a>(curve: *const fpt_curve) -> Result<&'a Curve, Failure> {
     // SAFETY: the caller vouches for it.
     Ok(unsafe { indexed(curve) }?.curve())
 }

@@ -115,7 +115,7 @@ pub(super) unsafe fn indexed<'a>(
 ///
 /// # Safety
 /// NULL or a live handle.
-unsafe fn plain<'a>(surface: *const fpt_surface) -> Result<&'a Surface, Failure> {
+pub(super) unsafe fn plain<'a>(surface: *const fpt_surface) -> Result<&'a Surface, Failure> {
     // SAFETY: the caller vouches for it.
     Ok(unsafe { indexed(surface) }?.surface())
 }

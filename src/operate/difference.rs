@@ -61,7 +61,8 @@ impl Curve {
         };
         let (ours, theirs) = (net(self)?, net(other)?);
         let steps = 1 + degree - self.degree().min(other.degree());
-        let rounding = Rounding::new(&ours, &theirs, [degree, 0], steps);
+        let poles = [self.poles(), other.poles()];
+        let rounding = Rounding::new(poles, [degree, 0], steps);
         let mut search = Search::new([degree, 0], rounding);
         for (i, ends) in common.windows(2).enumerate() {
             let range = i * degree..=i * degree + degree;
@@ -98,7 +99,8 @@ impl Surface {
             Ok((patch_net(&raised, &u, &v)?, u, v))
         };
         let ((ours, u, v), (theirs, ..)) = (cut(self)?, cut(other)?);
-        let mut search = Search::new(degree, Rounding::new(&ours, &theirs, degree, steps));
+        let poles = [self.poles(), other.poles()];
+        let mut search = Search::new(degree, Rounding::new(poles, degree, steps));
         for (i, along_u) in common[0].windows(2).enumerate() {
             for (j, along_v) in common[1].windows(2).enumerate() {
                 let nets = [&ours, &theirs].map(|net| patch(net, &u, &v, i, j));
@@ -135,9 +137,9 @@ struct Rounding {
 }
 
 impl Rounding {
-    fn new(a: &[Weighted], b: &[Weighted], degree: [usize; 2], steps: usize) -> Self {
+    fn new(poles: [&[Vector]; 2], degree: [usize; 2], steps: usize) -> Self {
         let mut bounds = Aabb::EMPTY;
-        a.iter().chain(b).for_each(|point| bounds.include(point.pole));
+        poles.into_iter().flatten().for_each(|pole| bounds.include(*pole));
         let far = bounds.low.iter().chain(&bounds.high).fold(0.0, |far: f64, x| far.max(x.abs()));
         let (d, p) = (bounds.diagonal(), degree[0].max(degree[1]) as f64);
         let count = ((degree[0] + 1) * (degree[1] + 1)) as f64;
@@ -254,7 +256,12 @@ impl Search {
 }
 
 /// Splits a net at the middle of direction `axis`: `before` becomes the first half.
-fn halve(before: &mut [Weighted], behind: &mut [Weighted], degree: [usize; 2], axis: usize) {
+pub(super) fn halve(
+    before: &mut [Weighted],
+    behind: &mut [Weighted],
+    degree: [usize; 2],
+    axis: usize,
+) {
     let width = degree[1] + 1;
     let (step, strands, p) =
         if axis == 0 { (width, 0..width, degree[0]) } else { (1, 0..degree[0] + 1, degree[1]) };
@@ -271,7 +278,7 @@ fn halve(before: &mut [Weighted], behind: &mut [Weighted], degree: [usize; 2], a
 }
 
 /// The longest difference of poles, and what weights that are not proportional may add.
-fn direct(nets: &[Vec<Weighted>; 2]) -> f64 {
+pub(super) fn direct(nets: &[Vec<Weighted>; 2]) -> f64 {
     let (mut longest, mut spread) = (0.0_f64, 0.0_f64);
     let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
     for (a, b) in nets[0].iter().zip(&nets[1]) {

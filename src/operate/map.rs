@@ -32,7 +32,8 @@ pub(crate) struct Map {
     /// The knots of the new strands.
     pub knots: Knots,
     rows: Vec<Row>,
-    from: usize,
+    /// Poles in an old strand.
+    pub from: usize,
 }
 
 impl Map {
@@ -49,7 +50,7 @@ impl Map {
 
     /// To the next degree.
     pub fn elevation(from: &Knots) -> Result<Self, Error> {
-        let (p, values) = (from.degree(), elevated(from));
+        let (p, values) = (from.degree(), raised_knots(from));
         let knots = checked(&values, p + 1)?;
         let mut rows = room(knots.pole_count())?;
         for i in 0..knots.pole_count() {
@@ -66,6 +67,26 @@ impl Map {
         }
         Ok(out)
     }
+
+    /// The rows as `(first, shares)`, one a new pole.
+    pub fn rows(&self) -> impl Iterator<Item = (usize, &[f64])> {
+        self.rows.iter().map(|row| (row.first, &row.shares[..]))
+    }
+}
+
+/// All knots once more, without those that no basis function on the domain reaches.
+pub(crate) fn raised_knots(from: &Knots) -> Vec<f64> {
+    let mut all = Vec::with_capacity(2 * from.values().len());
+    for (i, &u) in from.values().iter().enumerate() {
+        all.push(u);
+        if from.values().get(i + 1) != Some(&u) {
+            all.push(u);
+        }
+    }
+    let ((start, end), order) = (from.domain(), from.degree() + 2);
+    let first = all.partition_point(|&u| u <= start) - order;
+    let last = all.partition_point(|&u| u < end) + order;
+    all[first..last].to_vec()
 }
 
 impl Row {
@@ -91,21 +112,6 @@ impl Row {
         }
         Weighted { pole: [0, 1, 2].map(|axis| near[axis] + pole[axis]), weight }
     }
-}
-
-/// All knots once more, without those that no basis function on the domain reaches.
-fn elevated(from: &Knots) -> Vec<f64> {
-    let mut all = Vec::with_capacity(2 * from.values().len());
-    for (i, &u) in from.values().iter().enumerate() {
-        all.push(u);
-        if from.values().get(i + 1) != Some(&u) {
-            all.push(u);
-        }
-    }
-    let ((start, end), order) = (from.domain(), from.degree() + 2);
-    let first = all.partition_point(|&u| u <= start) - order;
-    let last = all.partition_point(|&u| u < end) + order;
-    all[first..last].to_vec()
 }
 
 /// The mean of the blossoms at the arguments without one of them.

@@ -46,6 +46,14 @@ impl Cut {
 }
 
 impl Curve {
+    /// The same curve with knots of full multiplicity: piece i has the poles `i * degree ..= i * degree + degree`. Exact.
+    ///
+    /// # Errors
+    /// Memory that could not be had.
+    pub fn bezier_form(&self) -> Result<Self, Error> {
+        self.mapped(&Cut::new(self.knots(), breaks(self.knots()))?.map)
+    }
+
     /// The Bezier pieces, one a span of the domain in order, each with its parameters: clamped curves of the same degree
     /// with `degree + 1` poles. Exact.
     ///
@@ -60,6 +68,19 @@ impl Curve {
 }
 
 impl Surface {
+    /// The same surface with knots of full multiplicity in both directions, as [`Curve::bezier_form`]. Exact.
+    ///
+    /// # Errors
+    /// Memory that could not be had.
+    pub fn bezier_form(&self) -> Result<Self, Error> {
+        let mut form = self.clone();
+        for direction in [Direction::U, Direction::V] {
+            let knots = form.knots(direction);
+            form = form.mapped(direction, &Cut::new(knots, breaks(knots))?.map)?;
+        }
+        Ok(form)
+    }
+
     /// The Bezier patches with their parameters, piece (i, j) at `i * count_v + j`, and the numbers of pieces in both
     /// directions. Exact.
     ///
