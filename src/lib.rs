@@ -53,4 +53,6 @@ pub mod batch;
 
 pub mod weights;
 
+pub mod intersect;
+
 mod ffi;

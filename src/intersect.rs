@@ -1,0 +1,20 @@
+//! Intersections of curves, lines, planes and quadrics with curves and surfaces: all of them, with proof.
+
+mod quadric;
+
+mod edges;
+
+mod level;
+
+mod branches;
+
+mod section;
+
+mod cell;
+
+mod rays;
+
+pub use branches::{Branch, BranchPoint, End};
+pub use quadric::Quadric;
+pub use rays::{CastMemory, Caster, Hit, Ray, ray_flag};
+pub use section::{Contact, DEFAULT_BUDGET, Junction, Section, SectionOptions};
