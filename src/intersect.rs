@@ -14,7 +14,15 @@ mod cell;
 
 mod rays;
 
+mod pairs;
+
+mod curves;
+
+mod conics;
+
 pub use branches::{Branch, BranchPoint, End};
+pub use conics::{Common, Conic};
+pub use curves::{CurveHit, CurveHits, HitOptions, Nature};
 pub use quadric::Quadric;
 pub use rays::{CastMemory, Caster, Hit, Ray, ray_flag};
 pub use section::{Contact, DEFAULT_BUDGET, Junction, Section, SectionOptions};

@@ -71,11 +71,6 @@ impl Axis {
         let first = scaled(first, 1.0 / norm(first));
         Self { origin, direction, across: [first, cross(direction, first)] }
     }
-
-    /// The same line seen from another origin of coordinates.
-    pub fn seen_from(&self, centre: Vector) -> Self {
-        Self { origin: sub(self.origin, centre), ..*self }
-    }
 }
 
 /// The two rows that undo the middle slopes, with their lengths; `None` when they cannot be undone.
@@ -176,10 +171,11 @@ impl Cell {
             reach = reach.max(norm(sub(place(k), self.middle)));
             off = off.max(norm(self.residual(degree, k, place(k))));
         }
-        // With weights the model's parameters are not those of the net: how far the linear part may be off.
-        let skew = if rational { (most - least) / least } else { 0.0 };
-        let lengths = self.edges.map(norm);
-        self.off = off + 2.0 * skew * (lengths[0] + lengths[1]);
+        // With weights the model's parameters are not those of the net: the linear part is off by the mean of
+        // (w_k - middle)(a_k - a), at most half the spread of the weights times the deviation of a binomial, 1 / sqrt(n).
+        let skew = if rational { 0.5 * (most - least) / least } else { 0.0 };
+        let spread = |k: usize, n: usize| norm(self.edges[k]) / (n.max(1) as f64).sqrt();
+        self.off = off + skew * (spread(0, degree.s) + spread(1, degree.t));
         for (direction, n) in [(0, degree.s), (1, degree.t)] {
             let stride = if direction == 0 { width } else { 1 };
             let number = |k: usize| if direction == 0 { k / width } else { k % width };

@@ -128,6 +128,14 @@ pub struct CastMemory {
     open: Vec<Placed>,
     /// Cells halved since the last ray began.
     halved: usize,
+    by_line: u64,
+}
+
+impl CastMemory {
+    /// Number of rays so far that went to the search with a tolerance.
+    pub fn by_line(&self) -> u64 {
+        self.by_line
+    }
 }
 
 /// A ray in the coordinates of the index.
@@ -207,10 +215,11 @@ impl Caster {
             let node = &self.nodes[stack[count] as usize];
             let near = self.level.run(Slabs { node, beam: &beam });
             for slot in 0..WIDTH {
-                if near[slot] < 0.0 {
+                let child = node.child[slot];
+                // The box of a child that is not there is turned inside out: slabs do not see it. The root is no child.
+                if child == 0 || near[slot] < 0.0 {
                     continue;
                 }
-                let child = node.child[slot];
                 if child & LEAF == 0 {
                     stack[count] = child;
                     count += 1;
@@ -438,6 +447,7 @@ impl Caster {
     /// The ray as a line with a tolerance: for rays that touch the surface or run in it.
     fn by_line(&self, ray: &Ray, memory: &mut CastMemory) -> u32 {
         memory.hits.clear();
+        memory.by_line += 1;
         let Ok(index) = self.shape.index(&mut || false) else { return ray_flag::NOT_PROVEN };
         let line = Line { origin: ray.origin, direction: ray.direction, reach: ray.reach };
         let tolerance = 1e-11 * index.frame.diagonal;

@@ -332,11 +332,12 @@ impl<'a> Work<'a> {
             for &(node, place) in &lump.nodes {
                 match level.nodes[node] {
                     NodeKind::Corner | NodeKind::Collapsed => special = Some(node),
+                    NodeKind::Double if place.iter().any(|&x| x == 0.0 || x == 1.0) => {
+                        double = Some(node);
+                    }
                     NodeKind::Double => {
                         if level.arcs.iter().any(|arc| arc.nodes.contains(&node)) {
                             arms.push((node, place, lump.patch));
-                        } else if place.iter().any(|&x| x == 0.0 || x == 1.0) {
-                            double = Some(node);
                         }
                     }
                     _ if seen.iter().filter(|&&other| other == node).count() == 1 => {
