@@ -72,7 +72,11 @@ fn main() {
             rates.push(rate);
         }
         let (cells, per) = (caster.cell_count(), hits as f64 / RAYS as f64);
-        println!("{},{patches},{cells},{build:.2},{per:.3},{open},{},{rate:.0}", case.name, memory.by_line());
+        println!(
+            "{},{patches},{cells},{build:.2},{per:.3},{open},{},{rate:.0}",
+            case.name,
+            memory.by_line()
+        );
     }
     rates.sort_by(f64::total_cmp);
     if !rates.is_empty() {

@@ -13,6 +13,7 @@
 //!                   -> normal, unwrap                          normals.rs, path.rs
 //!                   -> scene                                   scene.rs, scene_query.rs
 //!                   -> weights                                 weights.rs, weights_records.rs, weights_report.rs, weights_edit.rs
+//!                   -> intersect                               intersect_records.rs, intersect.rs, intersect_rays.rs
 //!          <- fpt_status, text of a failure for fpt_last_error
 //! ```
 //!
@@ -43,6 +44,9 @@ mod weights_records;
 mod weights_report;
 mod weights;
 mod weights_edit;
+mod intersect_records;
+mod intersect;
+mod intersect_rays;
 #[cfg(test)]
 mod tests;
 

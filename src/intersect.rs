@@ -12,11 +12,15 @@ mod section;
 
 mod cell;
 
+mod cells;
+
 mod rays;
 
 mod pairs;
 
 mod curves;
+
+mod curve_quadric;
 
 mod conics;
 
@@ -24,5 +28,5 @@ pub use branches::{Branch, BranchPoint, End};
 pub use conics::{Common, Conic};
 pub use curves::{CurveHit, CurveHits, HitOptions, Nature};
 pub use quadric::Quadric;
-pub use rays::{CastMemory, Caster, Hit, Ray, ray_flag};
+pub use rays::{CastMemory, Caster, Hit, Ray, RayHits, ray_flag};
 pub use section::{Contact, DEFAULT_BUDGET, Junction, Section, SectionOptions};

@@ -35,7 +35,8 @@ fn circles_cross_touch_and_coincide() {
     for (scale, far) in [(1.0, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, 1e3)] {
         let place = |x: Vector| x.map(|c| c * scale + far);
         let unit = mapped(&circle(0.0, 1.0, 1.0), place);
-        let moved = |r: f64, d: f64| mapped(&circle(0.0, 1.0, r), |x| place([x[0] + d, x[1], x[2]]));
+        let moved =
+            |r: f64, d: f64| mapped(&circle(0.0, 1.0, r), |x| place([x[0] + d, x[1], x[2]]));
         let hits = meet(&unit, &moved(1.0, 1.0));
         assert!(hits.is_complete());
         assert_eq!(kinds(&hits), [(Nature::Transversal, 1); 2], "{scale} {far} {hits:?}");
@@ -61,7 +62,9 @@ fn circles_cross_touch_and_coincide() {
 #[test]
 fn the_same_circle_with_another_start_is_an_overlap() {
     let unit = circle(0.0, 1.0, 1.0);
-    let turned = mapped(&circle(0.0, 1.0, 1.0), |x| [0.6 * x[0] - 0.8 * x[1], 0.8 * x[0] + 0.6 * x[1], x[2]]);
+    let turned = mapped(&circle(0.0, 1.0, 1.0), |x| {
+        [0.6 * x[0] - 0.8 * x[1], 0.8 * x[0] + 0.6 * x[1], x[2]]
+    });
     let hits = meet(&unit, &turned);
     assert!(hits.is_complete());
     // One piece, or two that meet at a seam.
@@ -126,7 +129,8 @@ fn cubics_meet_in_up_to_nine_points() {
 #[test]
 fn a_line_cuts_a_cubic_through_its_inflection_three_times_over() {
     // y = x^3 and y = 0.
-    let a = cubic([[-1.0, -1.0, 0.0], [-1.0 / 3.0, 1.0, 0.0], [1.0 / 3.0, -1.0, 0.0], [1.0, 1.0, 0.0]]);
+    let a =
+        cubic([[-1.0, -1.0, 0.0], [-1.0 / 3.0, 1.0, 0.0], [1.0 / 3.0, -1.0, 0.0], [1.0, 1.0, 0.0]]);
     let hits = meet(&a, &line([-1.0, 0.0, 0.0], [1.5, 0.0, 0.0]));
     assert!(hits.is_complete());
     assert_eq!(kinds(&hits), [(Nature::Tangential, 3)], "{hits:?}");
@@ -136,23 +140,25 @@ fn a_line_cuts_a_cubic_through_its_inflection_three_times_over() {
 #[test]
 fn curves_cross_touch_and_lie_in_surfaces() {
     let ball = sphere([0.0, 1.0]);
-    let ask = |curve: &IndexedCurve| ball.meet_curve(curve, &HitOptions::default(), &mut || false).unwrap();
+    let ask = |curve: &IndexedCurve| {
+        ball.meet_curve(curve, &HitOptions::default(), &mut || false).unwrap()
+    };
     let mut random = Random(9);
     for _ in 0..50 {
         let (a, b) = (random.point(1.5), random.point(1.5));
         let hits = ask(&line(a, b));
         assert!(hits.is_complete());
         let d = sub(b, a);
-        let (p, q, r) = (
-            known_shapes::dot(d, d),
-            known_shapes::dot(a, d),
-            known_shapes::dot(a, a) - 1.0,
-        );
+        let (p, q, r) =
+            (known_shapes::dot(d, d), known_shapes::dot(a, d), known_shapes::dot(a, a) - 1.0);
         let root = q * q - p * r;
         let wanted: Vec<f64> = if root < 0.0 {
             vec![]
         } else {
-            [(-q - root.sqrt()) / p, (-q + root.sqrt()) / p].into_iter().filter(|t| (0.0..=1.0).contains(t)).collect()
+            [(-q - root.sqrt()) / p, (-q + root.sqrt()) / p]
+                .into_iter()
+                .filter(|t| (0.0..=1.0).contains(t))
+                .collect()
         };
         assert_eq!(hits.hits.len(), wanted.len(), "{a:?} {b:?} {hits:?}");
         for (hit, t) in hits.hits.iter().zip(wanted) {
@@ -176,7 +182,9 @@ fn curves_cross_touch_and_lie_in_surfaces() {
 #[test]
 fn a_circle_meets_a_torus_and_a_cylinder() {
     let ring = torus();
-    let ask = |curve: &IndexedCurve| ring.meet_curve(curve, &HitOptions::default(), &mut || false).unwrap();
+    let ask = |curve: &IndexedCurve| {
+        ring.meet_curve(curve, &HitOptions::default(), &mut || false).unwrap()
+    };
     // A circle in the plane y = 0 around (2, 0, 0) with radius 0.6 meets nothing; shifted by 0.3 twice.
     let around = |d: f64| mapped(&circle(0.0, 1.0, 0.6), move |x| [2.0 + d + x[0], 0.0, x[1]]);
     assert!(ask(&around(0.0)).hits.is_empty());

@@ -56,7 +56,9 @@ fn special_lines_meet_a_sphere_as_they_should() {
     let caster = caster(sphere([0.0, 1.0]));
     let ask = |origin, direction| hits(&caster, &Ray { origin, direction, reach: ALL });
     // Through the poles, through knot lines and corners, through the seam.
-    for direction in [[0., 0., 1.], [1., 0., 0.], [0., 1., 0.], [1., 1., 0.], [-1., 0., 1.], [0., 2., 2.]] {
+    for direction in
+        [[0., 0., 1.], [1., 0., 0.], [0., 1., 0.], [1., 1., 0.], [-1., 0., 1.], [0., 2., 2.]]
+    {
         let found = ask([0.0; 3], direction);
         assert_eq!(found.len(), 2, "{direction:?} {found:?}");
         assert!((found[0].t + 1.0).abs() < 1e-14 && (found[1].t - 1.0).abs() < 1e-14);
@@ -153,8 +155,9 @@ fn a_line_through_a_point_of_any_surface_hits_it() {
                 continue;
             }
             let near = 1e-9 * case.diagonal + 1e-13 * case.magnitude;
-            let is_hit = memory.hits.iter().any(|hit| norm(sub(hit.point, point)) < near
-                || hit.flags & ray_flag::OVERLAP != 0);
+            let is_hit = memory.hits.iter().any(|hit| {
+                norm(sub(hit.point, point)) < near || hit.flags & ray_flag::OVERLAP != 0
+            });
             assert!(is_hit, "{} {k}: ({u}, {v}) {point:?} {:?}", case.name, memory.hits);
         }
     }

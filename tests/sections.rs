@@ -41,7 +41,14 @@ impl Motion {
         let degrees = [u.degree(), v.degree()];
         IndexedSurface::new(
             Surface::new(
-                u.values(), v.values(), degrees[0], degrees[1], &poles, counts[0], counts[1], s.weights(),
+                u.values(),
+                v.values(),
+                degrees[0],
+                degrees[1],
+                &poles,
+                counts[0],
+                counts[1],
+                s.weights(),
             )
             .unwrap(),
         )
@@ -119,7 +126,11 @@ fn a_plane_cuts_a_sphere_in_one_circle() {
             let section = cut(&shape, &plane(&m, n.map(|x| x * height), n));
             let text = summary(&section);
             assert!(section.is_complete(), "{normal:?} {height} {m:?} {text}");
-            assert_eq!((section.branches.len(), loops(&section)), (1, 1), "{normal:?} {height} {m:?} {text}");
+            assert_eq!(
+                (section.branches.len(), loops(&section)),
+                (1, 1),
+                "{normal:?} {height} {m:?} {text}"
+            );
             assert!(section.contacts.is_empty(), "{text}");
             check_points(&section, &m, 2e-13, |x| dot(x, n) - height);
             check_points(&section, &m, 2e-13, |x| norm(x) - 1.0);
@@ -132,12 +143,17 @@ fn a_plane_touches_a_sphere_in_one_point() {
     let unit = sphere([0.0, 1.0]);
     for m in motions() {
         let shape = m.surface(&unit);
-        for normal in [[0.3, -0.5, 0.8], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 1.0], [0.6, 0.8, 0.0]] {
+        for normal in
+            [[0.3, -0.5, 0.8], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 1.0], [0.6, 0.8, 0.0]]
+        {
             let n = normal.map(|x| x / norm(normal));
             let section = cut(&shape, &plane(&m, n, n));
             let text = summary(&section);
             assert_eq!(section.contacts.len(), 1, "{normal:?} {m:?} {text}");
-            assert!(section.branches.is_empty() && section.is_complete(), "{normal:?} {m:?} {text}");
+            assert!(
+                section.branches.is_empty() && section.is_complete(),
+                "{normal:?} {m:?} {text}"
+            );
             let x = m.back(section.contacts[0].at.point);
             assert!(norm(sub(x, n)) < 1e-6, "{x:?}");
             let none = cut(&shape, &plane(&m, n.map(|x| x * 1.000_001), n));
@@ -210,17 +226,28 @@ fn quadrics_cut_cylinders_and_a_surface_lies_in_its_own() {
         // Thinner: two loops around the x axis.
         let section = cut(&shape, &across(0.5));
         assert!(section.is_complete(), "{}", summary(&section));
-        assert_eq!((loops(&section), section.branches.len()), (2, 2), "{m:?} {}", summary(&section));
+        assert_eq!(
+            (loops(&section), section.branches.len()),
+            (2, 2),
+            "{m:?} {}",
+            summary(&section)
+        );
         check_points(&section, &m, 3e-13, |x| x[1].hypot(x[2]) - 0.5);
         // Its own cylinder.
-        let own = Quadric::cylinder(m.point([0.0, 0.0, 5.0]), m.turn([0.0, 0.0, 2.0]), m.scale).unwrap();
+        let own =
+            Quadric::cylinder(m.point([0.0, 0.0, 5.0]), m.turn([0.0, 0.0, 2.0]), m.scale).unwrap();
         let section = cut(&shape, &own);
         assert_eq!(section.overlaps, [[0.0, 1.0, 0.0, 1.0]], "{m:?} {}", summary(&section));
         assert!(section.branches.is_empty() && section.is_complete());
         // A sphere through both borders and one that touches along the waist.
         let ball = |r: f64| Quadric::sphere(m.point([0.0; 3]), r * m.scale).unwrap();
         let section = cut(&shape, &ball(1.25));
-        assert_eq!((loops(&section), section.branches.len()), (2, 2), "{m:?} {}", summary(&section));
+        assert_eq!(
+            (loops(&section), section.branches.len()),
+            (2, 2),
+            "{m:?} {}",
+            summary(&section)
+        );
         check_points(&section, &m, 3e-13, |x| norm(x) - 1.25);
         let section = cut(&shape, &ball(1.0));
         let text = summary(&section);
@@ -228,9 +255,19 @@ fn quadrics_cut_cylinders_and_a_surface_lies_in_its_own() {
         assert_eq!((loops(&section), section.branches.len()), (1, 1), "{m:?} {text}");
         assert!(section.branches[0].tangential, "{text}");
         // A cone with its apex on the cylinder's axis below.
-        let cone = Quadric::cone(m.point([0.0, 0.0, -1.0]), m.turn([0.0, 0.0, 1.0]), 0.25 * std::f64::consts::PI).unwrap();
+        let cone = Quadric::cone(
+            m.point([0.0, 0.0, -1.0]),
+            m.turn([0.0, 0.0, 1.0]),
+            0.25 * std::f64::consts::PI,
+        )
+        .unwrap();
         let section = cut(&shape, &cone);
-        assert_eq!((loops(&section), section.branches.len()), (1, 1), "{m:?} {}", summary(&section));
+        assert_eq!(
+            (loops(&section), section.branches.len()),
+            (1, 1),
+            "{m:?} {}",
+            summary(&section)
+        );
         check_points(&section, &m, 3e-13, |x| x[2]);
     }
 }

@@ -101,12 +101,51 @@ class WeightsConicShape(ctypes.Structure):
     _fields_ = [("weight", c_double), ("rho", c_double), ("eccentricity", c_double)]
 
 
+class HitOptions(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("tolerance", c_double), ("chord", c_double), ("budget", c_uint64), ("threads", c_uint32),
+                ("reserved", c_uint32), ("should_stop", StopFunction), ("progress", ProgressFunction), ("user", c_void_p)]
+
+
+class Quadric(ctypes.Structure):
+    _fields_ = [("kind", c_uint32), ("reserved", c_uint32), ("origin", c_double * 3), ("axis", c_double * 3), ("size", c_double),
+                ("matrix", c_double * 6), ("linear", c_double * 3), ("constant", c_double)]
+
+
+class CurveHit(ctypes.Structure):
+    _fields_ = [("u", c_double), ("v", c_double), ("w", c_double), ("point", c_double * 3), ("distance", c_double),
+                ("u_range", c_double * 2), ("v_range", c_double * 2), ("w_range", c_double * 2), ("nature", c_uint32),
+                ("multiplicity", c_uint32)]
+
+
+class RayHit(ctypes.Structure):
+    _fields_ = [("t", c_double), ("u", c_double), ("v", c_double), ("point", c_double * 3), ("flags", c_uint32), ("count", c_uint32)]
+
+
+class Branch(ctypes.Structure):
+    _fields_ = [("point_count", c_size_t), ("ends", c_uint32 * 2), ("tangential", c_uint32), ("reserved", c_uint32)]
+
+
+class SectionPoint(ctypes.Structure):
+    _fields_ = [("u", c_double), ("v", c_double), ("point", c_double * 3), ("distance", c_double), ("arms", c_uint32),
+                ("reserved", c_uint32)]
+
+
+class SectionRegion(ctypes.Structure):
+    _fields_ = [("domain", c_double * 4), ("overlaps", c_uint32), ("reserved", c_uint32)]
+
+
+class Conic(ctypes.Structure):
+    _fields_ = [("kind", c_uint32), ("reserved", c_uint32), ("center", c_double * 3), ("axes", c_double * 6), ("lengths", c_double * 2)]
+
+
 STRUCTS: dict[str, type[ctypes.Structure]] = {
     "fpt_curve_data": CurveData, "fpt_surface_data": SurfaceData, "fpt_curve_callback": CurveCallback,
     "fpt_surface_callback": SurfaceCallback, "fpt_query_options": QueryOptions, "fpt_extrema_options": ExtremaOptions,
     "fpt_foot_point": FootPoint, "fpt_foot_member": FootMember, "fpt_scene_member": SceneMember, "fpt_scene_data": SceneData,
     "fpt_weights_options": WeightsOptions, "fpt_weights_constraint": WeightsConstraint, "fpt_weights_pole": WeightsPole,
     "fpt_weights_outcome": WeightsOutcome, "fpt_weights_summary": WeightsSummary, "fpt_weights_conic_shape": WeightsConicShape,
+    "fpt_hit_options": HitOptions, "fpt_quadric": Quadric, "fpt_curve_hit": CurveHit, "fpt_ray_hit": RayHit, "fpt_branch": Branch,
+    "fpt_section_point": SectionPoint, "fpt_section_region": SectionRegion, "fpt_conic": Conic,
 }
 
 # One letter an argument: p pointer (arrays, handles, structs), z size_t, d double, I uint32_t, i int32_t.
@@ -137,12 +176,20 @@ _STATUS = {
     "weights_report_surface": "pp", "weights_move_point": "pdzdp", "weights_through_point": "pzpdpp", "weights_conic": "ppp",
     "weights_of_rho": "dp", "weights_of_eccentricity": "pdpp", "weights_normalise": "pzIp", "weights_bound": "pzdp",
     "weights_standard_form": "pp", "weights_positive_form": "zzppp",
+    "intersect_curves": "pppp", "intersect_surface_curve": "pppp", "intersect_curve_quadric": "pppp", "curve_hits_count": "pp",
+    "curve_hits_get": "pzp", "curve_hits_undecided_count": "pp", "curve_hits_undecided_get": "pzp",
+    "intersect_surface_quadrics": "ppzpp", "sections_counts": "pzp", "sections_branch_get": "pzzp", "sections_branch_points": "pzzzp",
+    "sections_point_get": "pzzp", "sections_region_get": "pzzp", "intersect_quadrics": "ppdpp", "caster_new": "ppp",
+    "caster_first": "pppzppp", "caster_all": "pppzppp", "ray_hits_count": "pp", "ray_hits_get": "pzp", "ray_hits_starts": "pzp",
+    "ray_hits_flags": "pzp",
 }
 _OTHER = {
     "last_error": ("", c_char_p), "status_name": ("i", c_char_p), "version": ("", c_uint32), "abi_version": ("", c_uint32),
     "query_options_init": ("pz", None), "extrema_options_init": ("pz", None),
     "weights_options_init": ("pz", None), "weights_report_free": ("p", None), "curve_free": ("p", None),
     "surface_free": ("p", None), "foot_set_free": ("p", None), "scene_free": ("p", None),
+    "hit_options_init": ("pz", None), "curve_hits_free": ("p", None), "sections_free": ("p", None), "caster_free": ("p", None),
+    "ray_hits_free": ("p", None),
 }
 PROTOTYPES = {name: (letters, c_int32) for name, letters in _STATUS.items()} | _OTHER
 

@@ -9,7 +9,7 @@ import pytest
 from shapes import ROOT, circle, cloud, cylinder, hill
 
 import footpoint
-from footpoint import _feet, _library, weights
+from footpoint import _feet, _library, intersect, weights
 
 HEADER = re.sub(r"/\*.*?\*/", "", (ROOT / "include" / "footpoint.h").read_text(encoding="utf-8"), flags=re.S)
 SCALARS = {"size_t": ctypes.c_size_t, "double": ctypes.c_double, "uint32_t": ctypes.c_uint32, "int32_t": ctypes.c_int32,
@@ -58,7 +58,9 @@ def test_structs():
                                           (footpoint.Scope, "FPT_SCOPE_"), (footpoint.Kind, "FPT_MEMBER_"),
                                           (footpoint.Nature, "FPT_NATURE_"), (weights.State, "FPT_WISH_"),
                                           (weights.WeightFlag, "FPT_WEIGHT_"), (weights.ConstraintKind, "FPT_CONSTRAINT_"),
-                                          (weights.Unit, "FPT_UNIT_")])
+                                          (weights.Unit, "FPT_UNIT_"), (intersect.HitNature, "FPT_HIT_"), (intersect.End, "FPT_END_"),
+                                          (intersect.RayFlag, "FPT_RAY_"), (intersect.QuadricKind, "FPT_QUADRIC_"),
+                                          (intersect.ConicKind, "FPT_CONIC_")])
 def test_enums(enum: type[Enum], prefix):
     listed = {name: int(value) for name, value in re.findall(rf"^\s*{prefix}(\w+) = (\d+),", HEADER, re.M)}
     assert listed == {name: int(member) for name, member in enum.__members__.items()}
@@ -66,7 +68,8 @@ def test_enums(enum: type[Enum], prefix):
 
 def test_records():
     for struct, dtype in ((_library.FootPoint, _feet.FOOT), (_library.FootMember, _feet.MEMBER), (_library.WeightsPole, weights.POLE),
-                          (_library.WeightsOutcome, weights.OUTCOME)):
+                          (_library.WeightsOutcome, weights.OUTCOME), (_library.CurveHit, intersect.HIT), (_library.RayHit, intersect.RAY_HIT),
+                          (_library.SectionPoint, intersect.SECTION_POINT), (_library.Conic, intersect.CONIC)):
         assert dtype.itemsize == ctypes.sizeof(struct)
         assert {name: dtype.fields[name][1] for name in dtype.names} == {name: getattr(struct, name).offset for name, _ in struct._fields_}
     assert _library.ABI_VERSION == int(re.search(r"#define FPT_ABI_VERSION (\d+)", HEADER)[1])
@@ -111,6 +114,16 @@ def test_every_function_is_reached(monkeypatch):
     weights.move_point(arch, 0.5, 1, 0.1), weights.through_point(arch, 1, [1, 1.5, 0]), weights.conic(arch.poles, [1, 1, 1])
     weights.of_rho(0.5), weights.of_eccentricity(arch.poles, 1), weights.normalise([1, 2]), weights.bound([1, 2], 1.5)
     weights.standard_form(arch), weights.positive_form(1, [0, 0, 1, 1], [[0, 0, 0, 1], [1, 0, 0, 1]])
+    line, plane = footpoint.Curve.from_poles(1, [[-5, 0, 1], [5, 0, 1]]), intersect.Quadric.plane([0, 0, 1], [0, 0, 1])
+    intersect.curves(curve, curve, budget=50), intersect.surface_curve(surface, line), intersect.curve_quadric(line, plane)
+    intersect.sections(surface, [plane, intersect.Quadric.plane(surface.evaluate([1, 0.5]), [1, 0, 0])])
+    intersect.sections(hill(), [intersect.Quadric.plane([0, 0, 0], [0, 0, 1])] * 2)
+    intersect.sections(footpoint.Surface.from_poles(1, 1, [[[0, 0, 0], [0, 2, 0]], [[2, 0, 0], [2, 2, 0]]]),
+                       [intersect.Quadric.plane([0, 0, 0], [0, 0, 1]), intersect.Quadric.sphere([1, 1, 1], 1)])
+    intersect.conics(plane, intersect.Quadric.sphere([0, 0, 0], 2), 1e-9)
+    caster = intersect.Caster(surface)
+    caster.first(points, [1, 0, 0]), caster.all(points, [1, 0, 0])
+    del caster
     footpoint.version(), footpoint.abi_version()
     with pytest.raises(RuntimeError, match="FPT_INTERNAL"):
         raise _library.failure(_library.INTERNAL)

@@ -140,7 +140,10 @@ impl Drawing<'_> {
         let ends = if is_loop && nodes[0] == nodes[1] {
             [End::Closed; 2]
         } else {
-            [self.end(level, nodes[0], &points[0]), self.end(level, nodes[1], &points[points.len() - 1])]
+            [
+                self.end(level, nodes[0], &points[0]),
+                self.end(level, nodes[1], &points[points.len() - 1]),
+            ]
         };
         Branch { points, ends, tangential }
     }
@@ -161,7 +164,8 @@ impl Drawing<'_> {
             _ => {}
         }
         let [u0, u1, v0, v1] = self.surface.domain();
-        let on_border = point.at[0] == u0 || point.at[0] == u1 || point.at[1] == v0 || point.at[1] == v1;
+        let on_border =
+            point.at[0] == u0 || point.at[0] == u1 || point.at[1] == v0 || point.at[1] == v1;
         if on_border { End::Border } else { End::Singular }
     }
 
@@ -224,7 +228,13 @@ fn away(x: Vector, a: Vector, b: Vector) -> f64 {
 }
 
 /// The zero across, where parameter `along` is `x`: of a polynomial that is monotone in between.
-fn zero_across(f: &Polynomial, along: usize, x: f64, [mut low, mut high]: [f64; 2], start: f64) -> f64 {
+fn zero_across(
+    f: &Polynomial,
+    along: usize,
+    x: f64,
+    [mut low, mut high]: [f64; 2],
+    start: f64,
+) -> f64 {
     let n = if along == 0 { f.degree.t } else { f.degree.s };
     let mut line = [0.0; MAX_PRODUCT];
     let line = &mut line[..=n];
@@ -237,7 +247,11 @@ fn zero_across(f: &Polynomial, along: usize, x: f64, [mut low, mut high]: [f64; 
         if v == 0.0 {
             return y;
         }
-        if (v > 0.0) == rising { high = y } else { low = y }
+        if (v > 0.0) == rising {
+            high = y
+        } else {
+            low = y
+        }
         let newton = y - v / slope;
         let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
         if (next - y).abs() <= 2.0 * HALF_ULP {

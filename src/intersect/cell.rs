@@ -185,7 +185,8 @@ impl Cell {
                 let i = number(k);
                 // The derivative, with its degree raised to that of the weights.
                 let step = |c: usize| {
-                    let value = |k: usize| if c == 3 && !rational { 1.0 } else { poles[c * count + k] };
+                    let value =
+                        |k: usize| if c == 3 && !rational { 1.0 } else { poles[c * count + k] };
                     let before = if i > 0 { value(k) - value(k - stride) } else { 0.0 };
                     let after = if i < n { value(k + stride) - value(k) } else { 0.0 };
                     0.5 * (i as f64 * before + (n - i) as f64 * after)
@@ -203,8 +204,11 @@ impl Cell {
 
     /// How near a line across the middle comes to crossing twice: `|Y| slope` for a line along the normal.
     pub fn crookedness(&self) -> f64 {
-        let [e, f, g] =
-            [dot(self.edges[0], self.edges[0]), dot(self.edges[0], self.edges[1]), dot(self.edges[1], self.edges[1])];
+        let [e, f, g] = [
+            dot(self.edges[0], self.edges[0]),
+            dot(self.edges[0], self.edges[1]),
+            dot(self.edges[1], self.edges[1]),
+        ];
         let det = e * g - f * f;
         // The greatest of the two rows' lengths: sqrt(g / det), sqrt(e / det).
         if det <= 1e-18 * e * g { f64::INFINITY } else { (e.max(g) / det).sqrt() * self.slope }
@@ -266,8 +270,8 @@ mod tests {
                 let (a, b) = (i as f64 / 4.0 - 1.0, j as f64 / 4.0 - 1.0);
                 let (s, t) = (0.5 * (a + 1.0), 0.5 * (b + 1.0));
                 let x = [s, t, s * s + t];
-                let model = [0, 1, 2]
-                    .map(|k| cell.middle[k] + a * cell.edges[0][k] + b * cell.edges[1][k]);
+                let model =
+                    [0, 1, 2].map(|k| cell.middle[k] + a * cell.edges[0][k] + b * cell.edges[1][k]);
                 assert!(norm(sub(x, model)) <= cell.off);
                 let slope = [0.5, 0.0, s];
                 assert!(norm(sub(slope, cell.edges[0])) <= cell.slope);

@@ -145,8 +145,9 @@ fn in_plane(q: &Quadric, origin: Vector, x: Vector, y: Vector) -> Option<Vec<Con
     let axis = |k: usize| add(scaled(x, vectors[k][0]), scaled(y, vectors[k][1]));
     let slope = |k: usize| vectors[k][0] * b[0] + vectors[k][1] * b[1];
     let is_zero = |v: f64| v.abs() <= NOTHING * size;
-    let line = |origin: Vector, direction: Vector| {
-        Conic::Line { origin, direction: scaled(direction, 1.0 / norm(direction)) }
+    let line = |origin: Vector, direction: Vector| Conic::Line {
+        origin,
+        direction: scaled(direction, 1.0 / norm(direction)),
     };
     match [is_zero(values[0]), is_zero(values[1])] {
         [true, true] => {
@@ -163,7 +164,10 @@ fn in_plane(q: &Quadric, origin: Vector, x: Vector, y: Vector) -> Option<Vec<Con
             let center = add(origin, add(scaled(axis(0), shift[0]), scaled(axis(1), shift[1])));
             // l0 X^2 + l1 Y^2 = level
             let level = q.value(center) * -1.0;
-            let reach = c.abs().max(slope(0).powi(2) / values[0].abs()).max(slope(1).powi(2) / values[1].abs());
+            let reach = c
+                .abs()
+                .max(slope(0).powi(2) / values[0].abs())
+                .max(slope(1).powi(2) / values[1].abs());
             let is_none = level.abs() <= NOTHING * NOTHING.sqrt() * reach.max(1e-300);
             let (p, r) = (values[0] * level.signum(), values[1] * level.signum());
             if values[0] * values[1] > 0.0 {
@@ -250,14 +254,16 @@ impl Quadric {
 fn with_plane(plane: &Quadric, other: &Quadric) -> Common {
     let n = scaled(plane.linear, 1.0 / norm(plane.linear));
     // The point of the plane nearest to where the other counts from.
-    let away = dot(n, sub(other.origin, plane.origin)) + plane.constant / (2.0 * norm(plane.linear));
+    let away =
+        dot(n, sub(other.origin, plane.origin)) + plane.constant / (2.0 * norm(plane.linear));
     let origin = sub(other.origin, scaled(n, away));
     if other.is_plane() {
         let m = scaled(other.linear, 1.0 / norm(other.linear));
         let direction = cross(n, m);
         if norm(direction) < NOTHING {
             let apart = other.value(origin).abs() / (2.0 * norm(other.linear));
-            let same = apart <= 1e-14 * norm(sub(plane.origin, other.origin)).max(f64::MIN_POSITIVE);
+            let same =
+                apart <= 1e-14 * norm(sub(plane.origin, other.origin)).max(f64::MIN_POSITIVE);
             return if same { Common::Same } else { Common::Conics(Vec::new()) };
         }
     }
@@ -280,7 +286,8 @@ fn pencil(a: &Quadric, b: &Quadric) -> Common {
     // Both signs of the pencil: cos p + sin q, sampled, then the angle of least third eigenvalue by golden section.
     let third = |angle: f64| {
         let (s, c) = angle.sin_cos();
-        let m: [[f64; 4]; 4] = std::array::from_fn(|i| std::array::from_fn(|j| c * p[i][j] + s * q[i][j]));
+        let m: [[f64; 4]; 4] =
+            std::array::from_fn(|i| std::array::from_fn(|j| c * p[i][j] + s * q[i][j]));
         let mut sizes = eigen(m).0.map(f64::abs);
         sizes.sort_by(|x, y| y.total_cmp(x));
         sizes[2] / sizes[0]
@@ -333,7 +340,8 @@ fn planes(
     unit: f64,
 ) -> Common {
     let (s, c) = angle.sin_cos();
-    let m: [[f64; 4]; 4] = std::array::from_fn(|i| std::array::from_fn(|j| c * p[i][j] + s * q[i][j]));
+    let m: [[f64; 4]; 4] =
+        std::array::from_fn(|i| std::array::from_fn(|j| c * p[i][j] + s * q[i][j]));
     let (values, vectors) = eigen(m);
     let mut order = [0, 1, 2, 3];
     order.sort_by(|&i, &j| values[j].abs().total_cmp(&values[i].abs()));
@@ -378,10 +386,8 @@ fn axis_of(a: &Quadric, first: &[f64; 4], second: &[f64; 4], center: Vector, uni
         // They meet at infinity only.
         return Common::Conics(Vec::new());
     }
-    let numerator = add(
-        scaled(cross(n[1], direction), -first[3]),
-        scaled(cross(direction, n[0]), -second[3]),
-    );
+    let numerator =
+        add(scaled(cross(n[1], direction), -first[3]), scaled(cross(direction, n[0]), -second[3]));
     let origin = add(center, scaled(numerator, unit / square));
     let d = scaled(direction, 1.0 / square.sqrt());
     let (k, h, c) = (dot(d, a.times(d)), 0.5 * dot(d, a.gradient(origin)), a.value(origin));
@@ -419,7 +425,9 @@ mod tests {
     fn spheres_meet_in_a_circle_a_point_or_not_at_all() {
         let a = Quadric::sphere([1.0, 2.0, 3.0], 1.0).unwrap();
         let at = |d: f64, r: f64| Quadric::sphere([1.0 + d, 2.0, 3.0], r).unwrap();
-        let [Conic::Ellipse { center, lengths, .. }] = conics(&a, &at(1.0, 1.0))[..] else { panic!() };
+        let [Conic::Ellipse { center, lengths, .. }] = conics(&a, &at(1.0, 1.0))[..] else {
+            panic!()
+        };
         assert!(norm(sub(center, [1.5, 2.0, 3.0])) < 1e-14, "{center:?}");
         assert!(lengths.iter().all(|l| (l - 0.75f64.sqrt()).abs() < 1e-14), "{lengths:?}");
         assert!(matches!(conics(&a, &at(2.0, 1.0))[..], [Conic::Point(_)]));
@@ -444,19 +452,24 @@ mod tests {
         let a = Quadric::cylinder([0.0; 3], [1.0, 1.0, 1.0], 1.0).unwrap();
         let side = [0.5f64.sqrt(), -(0.5f64.sqrt()), 0.0];
         let at = |d: f64| Quadric::cylinder(scaled(side, d), [1.0, 1.0, 1.0], 1.0).unwrap();
-        let count = |d: f64| conics(&a, &at(d)).iter().filter(|c| matches!(c, Conic::Line { .. })).count();
+        let count =
+            |d: f64| conics(&a, &at(d)).iter().filter(|c| matches!(c, Conic::Line { .. })).count();
         assert_eq!([count(1.0), count(2.0), count(2.5)], [2, 1, 0]);
     }
 
     #[test]
     fn planes_cut_a_cone_in_every_conic() {
-        let cone = Quadric::cone([0.0, 0.0, 1.0], [0.0, 0.0, 1.0], 0.25 * std::f64::consts::PI).unwrap();
+        let cone =
+            Quadric::cone([0.0, 0.0, 1.0], [0.0, 0.0, 1.0], 0.25 * std::f64::consts::PI).unwrap();
         let cut = |origin, normal| conics(&cone, &Quadric::plane(origin, normal).unwrap());
         assert!(matches!(cut([0.0; 3], [0.0, 0.0, 1.0])[..], [Conic::Ellipse { .. }]));
         assert!(matches!(cut([0.0; 3], [0.0, 0.3, 1.0])[..], [Conic::Ellipse { .. }]));
         assert!(matches!(cut([0.0; 3], [0.0, 1.0, 1.0])[..], [Conic::Parabola { .. }]));
         assert!(matches!(cut([0.0; 3], [0.0, 1.0, 0.1])[..], [Conic::Hyperbola { .. }]));
-        assert!(matches!(cut([0.0, 0.0, 1.0], [0.0, 1.0, 0.1])[..], [Conic::Line { .. }, Conic::Line { .. }]));
+        assert!(matches!(
+            cut([0.0, 0.0, 1.0], [0.0, 1.0, 0.1])[..],
+            [Conic::Line { .. }, Conic::Line { .. }]
+        ));
         assert!(matches!(cut([0.0, 0.0, 1.0], [0.0, 0.1, 1.0])[..], [Conic::Point(_)]));
     }
 }

@@ -15,7 +15,7 @@ const TANGENTIAL: f64 = 1e-5;
 
 /// Samples along a piece that two shapes share, and their distance, as a share of the tolerance, up to which they coincide.
 const SAMPLES: usize = 9;
-const COINCIDENT: f64 = 1.0 / 64.0;
+pub const COINCIDENT: f64 = 1.0 / 64.0;
 
 /// Share of the tolerance with which near places are searched again, so that two crossings there are two.
 const FINE: f64 = 1e-4;
@@ -151,8 +151,7 @@ impl<'a> Work<'a> {
         frame: &Frame,
         options: &HitOptions,
     ) -> Self {
-        let asked =
-            if options.tolerance > 0.0 { options.tolerance } else { 1e-7 * frame.diagonal };
+        let asked = if options.tolerance > 0.0 { options.tolerance } else { 1e-7 * frame.diagonal };
         // Points are as exact as the coordinates of the shapes.
         let floor = 1e-14 * frame.diagonal + 4.0 * f64::EPSILON * frame.magnitude;
         let tolerance = asked.max(floor);
@@ -194,7 +193,8 @@ impl<'a> Work<'a> {
             let is = |kind| move |item: &&Found| item.kind == kind;
             out.undecided.extend(finer.iter().filter(is(FoundKind::Undecided)).map(boxed));
             let before = crossings.len();
-            crossings.extend(finer.iter().filter(is(FoundKind::Crossing)).map(|f| self.crossing(f)));
+            crossings
+                .extend(finer.iter().filter(is(FoundKind::Crossing)).map(|f| self.crossing(f)));
             let left: Vec<Found> = finer.iter().filter(is(FoundKind::Together)).copied().collect();
             if left.is_empty() && crossings.len() == before {
                 self.contact(&group, &mut crossings, &mut out);
@@ -214,7 +214,8 @@ impl<'a> Work<'a> {
     /// Slopes of the first shape (two for a surface) and of the curve.
     fn slopes(&self, at: [f64; 3]) -> ([Vector; 2], Vector) {
         let mut line = [[0.0; 3]; 2];
-        let end = |u: f64, domain: (f64, f64)| if u >= domain.1 { Side::Below } else { Side::Above };
+        let end =
+            |u: f64, domain: (f64, f64)| if u >= domain.1 { Side::Below } else { Side::Above };
         let curve = self.curve.curve();
         curve.derivatives_on(at[2], end(at[2], curve.domain()), 1, &mut line);
         let first = match self.target {
@@ -329,7 +330,8 @@ impl<'a> Work<'a> {
         let inside = |hit: &&mut CurveHit| {
             let slack = hit.w_range[1] - hit.w_range[0];
             hit.w >= range[0] - slack && hit.w <= range[1] + slack && {
-                let (u, k) = if matches!(self.target, Target::Curve(_)) { (hit.u, 1) } else { (hit.u, 0) };
+                let (u, k) =
+                    if matches!(self.target, Target::Curve(_)) { (hit.u, 1) } else { (hit.u, 0) };
                 let slack = hit.u_range[1] - hit.u_range[0];
                 u >= low[k] - slack && u <= high[k] + slack
             }
@@ -343,7 +345,14 @@ impl<'a> Work<'a> {
         let mut hit = self.hit([foot[0], foot[1], w], low, high, Nature::Tangential);
         if distance > self.tolerance {
             // Not nearer anywhere that was looked at, and not shown to be farther.
-            out.undecided.push([hit.u_range[0], hit.u_range[1], hit.v_range[0], hit.v_range[1], low[2], high[2]]);
+            out.undecided.push([
+                hit.u_range[0],
+                hit.u_range[1],
+                hit.v_range[0],
+                hit.v_range[1],
+                low[2],
+                high[2],
+            ]);
             return;
         }
         hit.multiplicity = if self.crosses(range) { 3 } else { 2 };
@@ -454,18 +463,22 @@ impl<'a> Work<'a> {
         let mut kept: Vec<CurveHit> = Vec::with_capacity(hits.len());
         for hit in hits.drain(..) {
             let is_same = |other: &CurveHit| {
-                let touches = [other.nature, hit.nature].contains(&Nature::Tangential);
-                other.nature != Nature::Overlap
-                    && hit.nature != Nature::Overlap
-                    && self.is_beside_on_curve(other.w_range, hit.w_range)
+                let natures = [other.nature, hit.nature];
+                let touches = natures.contains(&Nature::Tangential);
+                let runs = natures.contains(&Nature::Overlap);
+                self.is_beside_on_curve(other.w_range, hit.w_range)
                     && self.is_beside(other, &hit)
-                    && (touches || norm(sub(other.point, hit.point)) <= 4.0 * self.tolerance)
+                    && (touches
+                        || (!runs && norm(sub(other.point, hit.point)) <= 4.0 * self.tolerance))
             };
-                        // In the order of w: the last ones, and of a closed curve the first.
+            // In the order of w: the last ones, and of a closed curve the first.
             let (count, near) = (kept.len(), 64);
-            let candidate =
-                |(k, other): (usize, &mut CurveHit)| ((k < near || k + near >= count) && is_same(other)).then_some(k);
+            let candidate = |(k, other): (usize, &mut CurveHit)| {
+                ((k < near || k + near >= count) && is_same(other)).then_some(k)
+            };
             match kept.iter_mut().enumerate().find_map(candidate).map(|k| &mut kept[k]) {
+                Some(other) if hit.nature == Nature::Overlap => *other = hit,
+                Some(other) if other.nature == Nature::Overlap => {}
                 Some(other) => {
                     if hit.distance < other.distance {
                         (other.u, other.v, other.w) = (hit.u, hit.v, hit.w);
@@ -524,7 +537,8 @@ fn groups(mut items: Vec<Found>) -> Vec<Vec<Found>> {
         }
         k
     }
-    let touch = |a: &Found, b: &Found| (0..3).all(|k| a.low[k] <= b.high[k] && b.low[k] <= a.high[k]);
+    let touch =
+        |a: &Found, b: &Found| (0..3).all(|k| a.low[k] <= b.high[k] && b.low[k] <= a.high[k]);
     // Boxes are cut by halves: those that may touch the current one begin at most at its end.
     let widest = items.iter().fold(0.0f64, |m, f| m.max(f.high[2] - f.low[2]));
     for i in 0..items.len() {

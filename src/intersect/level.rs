@@ -362,9 +362,8 @@ impl Field<'_> {
 
     /// The value at a place given in local parameters of the patch.
     fn value(&self, area: &Area, at: [f64; 2]) -> f64 {
-        let inner = [0, 1].map(|k| {
-            ((at[k] - area.low[k]) / (area.high[k] - area.low[k])).clamp(0.0, 1.0)
-        });
+        let inner =
+            [0, 1].map(|k| ((at[k] - area.low[k]) / (area.high[k] - area.low[k])).clamp(0.0, 1.0));
         value(&area.values, self.degree(), inner)
     }
 
@@ -460,7 +459,11 @@ impl Field<'_> {
                 corners,
                 depth: area.depth + 1,
             };
-            if is_high { part.low[direction] = x } else { part.high[direction] = x }
+            if is_high {
+                part.low[direction] = x
+            } else {
+                part.high[direction] = x
+            }
             part
         };
         [half(true, high), half(false, low)]

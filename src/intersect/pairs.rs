@@ -82,12 +82,27 @@ impl<'a> Body<'a> {
     fn half(&self, piece: usize, area: [f64; 4], net: &mut Vec<f64>) -> (Half, Aabb) {
         let (poles, degree, rational, center, radius, spread) = match &self.of {
             Of::Curve(_, index) => {
-                let (segment, degree) = (&index.segments[piece], Bidegree { s: 0, t: index.degree() });
-                (index.net(piece).poles, degree, index.is_rational(), segment.center, segment.radius, 0.0)
+                let (segment, degree) =
+                    (&index.segments[piece], Bidegree { s: 0, t: index.degree() });
+                (
+                    index.net(piece).poles,
+                    degree,
+                    index.is_rational(),
+                    segment.center,
+                    segment.radius,
+                    0.0,
+                )
             }
             Of::Surface(_, index) => {
                 let patch = &index.patches[piece];
-                (index.net(piece).poles, index.degree, index.rational, patch.center, patch.radius, patch.spread)
+                (
+                    index.net(piece).poles,
+                    index.degree,
+                    index.rational,
+                    patch.center,
+                    patch.radius,
+                    patch.spread,
+                )
             }
         };
         let count = degree.count();
@@ -268,9 +283,8 @@ impl Pairs<'_> {
     }
 
     fn are_apart(&self, a: &Aabb, b: &Aabb) -> bool {
-        (0..3).any(|k| {
-            a.low[k] > b.high[k] + self.tolerance || b.low[k] > a.high[k] + self.tolerance
-        })
+        (0..3)
+            .any(|k| a.low[k] > b.high[k] + self.tolerance || b.low[k] > a.high[k] + self.tolerance)
     }
 
     fn halve(
@@ -389,7 +403,12 @@ impl Pairs<'_> {
             first.area[2 * k_of] = inner(&a.area, k_of, ends[0].min(ends[1]) - margins[k]);
             first.area[2 * k_of + 1] = inner(&a.area, k_of, ends[0].max(ends[1]) + margins[k]);
         }
-        Verdict::Found(self.found(&first, &second, self.middle(&first, &second), FoundKind::Together))
+        Verdict::Found(self.found(
+            &first,
+            &second,
+            self.middle(&first, &second),
+            FoundKind::Together,
+        ))
     }
 
     /// A pair of boxes with at most one near-zero; `None` when it must be halved.
@@ -418,32 +437,34 @@ impl Pairs<'_> {
             }
             out
         };
-        // Newton in the boxes' own units.
+        // Newton in the boxes' own units, until steps are rounding.
         let mut x = centre;
-        let mut d = d0;
+        let (mut d, mut before) = (d0, f64::INFINITY);
         for step in 0.. {
-            let at = local(&x);
-            let (value, v) = self.difference(a, b, at, areas, first);
+            let (value, v) = self.difference(a, b, local(&x), areas, first);
             d = value;
             let y = undo(&v[first..])?;
             let dx: [f64; 3] = std::array::from_fn(|k| if k < n { -dot(y[k], value) } else { 0.0 });
             let size = dx.iter().fold(0.0f64, |m, x| m.max(x.abs()));
             x = std::array::from_fn(|k| x[k] + dx[k]);
-            if !(size < 8.0) || x.iter().any(|x| x.abs() > 4.0) || step == 12 {
+            if !(size < 8.0) || x.iter().any(|x| x.abs() > 4.0) || step == 20 {
                 return None;
             }
-            if size < 1e-11 {
+            if size < 1e-11 || (size < 1e-5 && size > 0.5 * before) {
                 break;
             }
+            before = size;
         }
         let slope = a.cell.slope + b.cell.slope;
         let worst = lengths.iter().fold(0.0f64, |m, &x| m.max(x));
         let deviation = worst * slope;
         let reach = worst * self.tolerance / (1.0 - deviation);
-        let rim: Vec<f64> = (0..n).map(|k| {
-            let width = areas[k][1] - areas[k][0];
-            1.0 + (RIM / width).min(1e-3) + lengths[k] * self.tolerance
-        }).collect();
+        let rim: Vec<f64> = (0..n)
+            .map(|k| {
+                let width = areas[k][1] - areas[k][0];
+                1.0 + (RIM / width).min(1e-3) + lengths[k] * self.tolerance
+            })
+            .collect();
         if (0..n).all(|k| x[k].abs() <= rim[k]) {
             let inside: [f64; 3] = std::array::from_fn(|k| x[k].clamp(-1.0, 1.0));
             let (here, _) = self.difference(a, b, local(&inside), areas, first);

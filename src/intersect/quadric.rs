@@ -40,9 +40,9 @@ fn positive(name: &str, x: f64) -> Result<(), Error> {
 
 fn finite(name: &str, v: &[f64]) -> Result<(), Error> {
     match v.iter().position(|x| !x.is_finite() || x.abs() > 1e100) {
-        Some(k) => Err(Error::InvalidArgument(format!(
-            "{name}: entry {k} is not finite or beyond 1e100"
-        ))),
+        Some(k) => {
+            Err(Error::InvalidArgument(format!("{name}: entry {k} is not finite or beyond 1e100")))
+        }
         None => Ok(()),
     }
 }
@@ -302,12 +302,7 @@ mod tests {
         let sphere = Quadric::sphere([1000.0, 0.0, 0.0], 1.0).unwrap();
         let segment = &index.segments[0];
         let form = Form::new(&sphere, &index.frame, segment.center);
-        let f = form.put_in(
-            index.net(0).poles,
-            Bidegree { s: 0, t: 1 },
-            false,
-            segment.radius,
-        );
+        let f = form.put_in(index.net(0).poles, Bidegree { s: 0, t: 1 }, false, segment.radius);
         // (4 t - 2)^2 - 1 = 3, -5, 3 in Bernstein form, over the slope 2, in units of 4.
         let expected = [3.0, -5.0, 3.0].map(|x| x / 2.0 / 4.0);
         for (value, wanted) in f.values.iter().zip(expected) {

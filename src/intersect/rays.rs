@@ -11,29 +11,19 @@
 //! have none. References: Toth 1985; Martin et al., *Practical ray tracing of trimmed NURBS surfaces*, 2000.
 //! Limit: of two crossings nearer than the rounding one may be told.
 
-use super::cell::{Axis, Cell, Meeting, inverse};
-use crate::bezier::cut_2d;
-use crate::bounds::{Aabb, HALF_ULP, Vector, add, cross, dot, norm, scaled, sub};
+use super::cell::{Axis, Meeting, inverse};
+use super::cells::{Beam, LEAF, Node, Placed, Slabs, WIDTH, cells_of, halves, model};
+use crate::batch::{self, Memory, Record};
+use crate::bounds::{HALF_ULP, Vector, add, cross, dot, norm, scaled, sub};
 use crate::closest::{GREATEST_COORDINATE, QueryOptions};
 use crate::error::Error;
 use crate::index::{IndexedSurface, Poll, SurfaceIndex};
 use crate::preimage::Line;
 use crate::set::Kind;
-use crate::simd::{Kernel, Lanes, Level, Simd};
+use crate::simd::Level;
 use std::sync::Arc;
 
-/// Children of a node.
-const WIDTH: usize = 8;
-const LEAF: u32 = 1 << 31;
-
-/// Cells are cut until their crookedness is below this.
-const CALM: f64 = 0.3;
-
-/// Most cells, unless there are more patches.
-const MOST_CELLS: usize = 1 << 19;
-
-/// Most halvings of a patch beforehand, and of a cell for one ray.
-const DEEPEST: u32 = 12;
+/// Most halvings of a cell for one ray.
 const DEEPEST_OPEN: u32 = 40;
 
 /// Most open cells that one ray may halve before `on_line` takes over.
@@ -93,21 +83,23 @@ impl Hit {
     }
 }
 
-#[derive(Clone, Debug)]
-#[repr(align(64))]
-struct Node {
-    low: [[f32; WIDTH]; 3],
-    high: [[f32; WIDTH]; 3],
-    child: [u32; WIDTH],
+impl Record for Hit {
+    fn unreached() -> Self {
+        Self { t: f64::NAN, ..Self::none(ray_flag::NOT_PROVEN) }
+    }
 }
 
-/// A cell with its place in a patch.
-#[derive(Clone, Copy, Debug)]
-struct Placed {
-    cell: Cell,
-    patch: u32,
-    depth: u32,
-    area: [f64; 4],
+impl Memory for CastMemory {}
+
+/// The hits of many rays.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RayHits {
+    /// The hits of ray k are those from `starts[k]` to `starts[k + 1]`.
+    pub starts: Vec<usize>,
+    /// All hits, ray by ray, in the order along each.
+    pub hits: Vec<Hit>,
+    /// Flags of each ray.
+    pub flags: Vec<u32>,
 }
 
 /// A surface prepared for rays. Immutable; any number of threads may use it.
@@ -138,16 +130,6 @@ impl CastMemory {
     }
 }
 
-/// A ray in the coordinates of the index.
-struct Beam {
-    axis: Axis,
-    inverse: Vector,
-    /// Caller's length of the origin.
-    start: f64,
-    reach: [f64; 2],
-    slack: f64,
-}
-
 impl Caster {
     /// Cuts the surface into cells. Cost: some microseconds a cell; 4 to 64 cells a patch are usual.
     ///
@@ -156,32 +138,7 @@ impl Caster {
     pub fn new(shape: Arc<IndexedSurface>, poll: Poll) -> Result<Self, Error> {
         let index = shape.index(poll)?;
         let level = index.grid.level;
-        let (mut cells, mut boxes) = (Vec::new(), Vec::new());
-        let most = (MOST_CELLS / index.patches.len().max(1)).max(1);
-        let deepest = DEEPEST.min(most.ilog2());
-        let mut order = Vec::with_capacity(index.patches.len());
-        in_order([0, index.patches.len() / index.columns], [0, index.columns], index.columns, &mut order);
-        let mut net = Vec::new();
-        for (k, patch) in order.into_iter().enumerate() {
-            if k % 64 == 63 && poll() {
-                return Err(Error::Cancelled);
-            }
-            let mut waiting = vec![([0.0, 1.0, 0.0, 1.0], 0)];
-            while let Some((area, depth)) = waiting.pop() {
-                let (cell, aabb) = model(index, patch, area, &mut net);
-                if depth < deepest && cell.crookedness() > CALM {
-                    let [a, b] = halves(&cell, area);
-                    waiting.extend([(b, depth + 1), (a, depth + 1)]);
-                    continue;
-                }
-                cells.try_reserve(1).map_err(|_| Error::OutOfMemory)?;
-                cells.push(Placed { cell, patch: patch as u32, depth: 0, area });
-                boxes.push(aabb);
-            }
-        }
-        let mut nodes = Vec::new();
-        build(&mut nodes, &boxes, 0, boxes.len());
-        drop(boxes);
+        let (nodes, cells) = cells_of(index, poll)?;
         Ok(Self { shape, nodes, cells, level })
     }
 
@@ -236,11 +193,67 @@ impl Caster {
     pub fn first(&self, ray: &Ray, memory: &mut CastMemory) -> Hit {
         let flags = self.cast(ray, memory);
         match memory.hits.first() {
-            Some(hit) => {
-                Hit { count: memory.hits.len() as u32, flags: hit.flags | flags, ..*hit }
-            }
+            Some(hit) => Hit { count: memory.hits.len() as u32, flags: hit.flags | flags, ..*hit },
             None => Hit::none(flags),
         }
+    }
+
+    /// The first hits of many rays, with the number of all, over `threads` threads (0: all cores). The same bits for any number
+    /// of threads; nothing is allocated for a ray.
+    ///
+    /// # Errors
+    /// As [`batch::run`].
+    pub fn first_hits(
+        &self,
+        rays: &(dyn Fn(usize) -> Ray + Sync),
+        out: &mut [Hit],
+        threads: usize,
+        poll: batch::Poll,
+    ) -> Result<(), Error> {
+        let work = |k: usize, memory: &mut CastMemory| self.first(&rays(k), memory);
+        batch::run(out, threads, None, &work, poll)
+    }
+
+    /// All hits of many rays: those with more than one are cast a second time.
+    ///
+    /// # Errors
+    /// As [`batch::run`]; when cancelled nothing is handed over.
+    pub fn all_hits(
+        &self,
+        rays: &(dyn Fn(usize) -> Ray + Sync),
+        count: usize,
+        threads: usize,
+        poll: batch::Poll,
+    ) -> Result<RayHits, Error> {
+        let mut first: Vec<Hit> = Vec::new();
+        first.try_reserve_exact(count).map_err(|_| Error::OutOfMemory)?;
+        first.resize(count, Hit::unreached());
+        self.first_hits(rays, &mut first, threads, poll)?;
+        let total: usize = first.iter().map(|hit| hit.count as usize).sum();
+        let mut all = RayHits::default();
+        let reserve = |list: &mut Vec<usize>| list.try_reserve_exact(count + 1);
+        reserve(&mut all.starts).map_err(|_| Error::OutOfMemory)?;
+        all.hits.try_reserve_exact(total).map_err(|_| Error::OutOfMemory)?;
+        all.flags.try_reserve_exact(count).map_err(|_| Error::OutOfMemory)?;
+        let mut memory = CastMemory::default();
+        for (k, hit) in first.iter().enumerate() {
+            all.starts.push(all.hits.len());
+            if hit.count > 1 {
+                if k % batch::GROUP == 0 && poll(count) {
+                    return Err(Error::Cancelled);
+                }
+                all.flags.push(self.cast(&rays(k), &mut memory));
+                all.hits.extend_from_slice(&memory.hits);
+                continue;
+            }
+            let of_ray = ray_flag::NOT_PROVEN | ray_flag::BAD_RAY;
+            all.flags.push(hit.flags & of_ray);
+            if hit.count == 1 {
+                all.hits.push(Hit { flags: hit.flags & !of_ray, ..*hit });
+            }
+        }
+        all.starts.push(all.hits.len());
+        Ok(all)
     }
 
     fn beam(&self, ray: &Ray) -> Option<Beam> {
@@ -260,7 +273,8 @@ impl Caster {
         let scale = index.frame.scale;
         let start = along / scale;
         let slack = 16.0 * HALF_ULP * (4.0 + norm(from) + along.abs());
-        let inverse = direction.map(|d| 1.0 / if d.abs() < 1e-30 { 1e-30f64.copysign(d) } else { d });
+        let inverse =
+            direction.map(|d| 1.0 / if d.abs() < 1e-30 { 1e-30f64.copysign(d) } else { d });
         let reach = ray.reach.map(|t| (t - start) * scale);
         let reach = [reach[0] - slack, reach[1] + slack];
         Some(Beam { axis: Axis::new(origin, direction), inverse, start, reach, slack })
@@ -300,14 +314,22 @@ impl Caster {
                 let [s0, s1, t0, t1] = placed.area;
                 let half = [0.5 * (s1 - s0), 0.5 * (t1 - t0)];
                 let middle = [0.5 * (s0 + s1), 0.5 * (t0 + t1)];
-                let (inner, along, slant) =
-                    newton(index, patch, base, &beam.axis, [0, 1].map(|k| middle[k] + half[k] * at[k]), half)?;
+                let (inner, along, slant) = newton(
+                    index,
+                    patch,
+                    base,
+                    &beam.axis,
+                    [0, 1].map(|k| middle[k] + half[k] * at[k]),
+                    half,
+                )?;
                 let x = [0, 1].map(|k| (inner[k] - middle[k]) / half[k]);
                 let rim = [0, 1].map(|k| 1.0 + RIM / half[k]);
                 let is_on = (0..2).all(|k| x[k].abs() <= rim[k]);
                 if !is_on && !is_inside {
                     let edge = x.map(|x| x.clamp(-1.0, 1.0));
-                    return self.is_outside(index, placed, base, beam, edge, deviation).then_some(());
+                    return self
+                        .is_outside(index, placed, base, beam, edge, deviation)
+                        .then_some(());
                 }
                 if !is_on {
                     return None;
@@ -497,10 +519,8 @@ fn newton(
         let f = axis.across.map(|n| dot(n, jet.d));
         let j = axis.across.map(|n| [dot(n, jet.s), dot(n, jet.t)]);
         let det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
-        let step = [
-            (j[0][1] * f[1] - j[1][1] * f[0]) / det,
-            (j[1][0] * f[0] - j[0][0] * f[1]) / det,
-        ];
+        let step =
+            [(j[0][1] * f[1] - j[1][1] * f[0]) / det, (j[1][0] * f[0] - j[0][0] * f[1]) / det];
         if step.iter().zip(half).any(|(d, h)| !(d.abs() <= 8.0 * h)) {
             return None;
         }
@@ -512,115 +532,4 @@ fn newton(
         }
     }
     None
-}
-
-/// The model of a part of a patch in the coordinates of the index, with its box.
-fn model(index: &SurfaceIndex, patch: usize, area: [f64; 4], net: &mut Vec<f64>) -> (Cell, Aabb) {
-    let (of, count) = (&index.patches[patch], index.degree.count());
-    net.clear();
-    net.extend_from_slice(index.net(patch).poles);
-    for component in net.chunks_exact_mut(count) {
-        cut_2d(component, index.degree, [area[0], area[1]], [area[2], area[3]]);
-    }
-    let mut cell = Cell::new(net, index.degree, index.rational, of.radius);
-    cell.off += 2.0 * of.spread + 16.0 * HALF_ULP;
-    cell.middle = add(cell.middle, of.center);
-    let mut aabb = Aabb::EMPTY;
-    for k in 0..count {
-        let w = if index.rational { net[3 * count + k] } else { 1.0 };
-        let x = [net[k] / w, net[count + k] / w, net[2 * count + k] / w];
-        aabb.include(add(of.center, x));
-    }
-    (cell, aabb.grown(cell.off.min(1e-12) + 64.0 * HALF_ULP))
-}
-
-/// The two halves of an area, across the direction in which the cell bends more.
-fn halves(cell: &Cell, area: [f64; 4]) -> [[f64; 4]; 2] {
-    let [aa, ab, bb] = cell.bends.map(norm);
-    let lengths = cell.edges.map(norm);
-    let (s, t) = (aa + 0.5 * ab, bb + 0.5 * ab);
-    let along_t = if s == t { lengths[1] > lengths[0] } else { t > s };
-    let k = usize::from(along_t);
-    let middle = 0.5 * (area[2 * k] + area[2 * k + 1]);
-    let mut out = [area; 2];
-    out[0][2 * k + 1] = middle;
-    out[1][2 * k] = middle;
-    out
-}
-
-/// Patches of a grid in the order of halved rectangles.
-fn in_order(rows: [usize; 2], columns: [usize; 2], width: usize, out: &mut Vec<usize>) {
-    let size = [rows[1] - rows[0], columns[1] - columns[0]];
-    if size[0] == 0 || size[1] == 0 {
-        return;
-    }
-    if size == [1, 1] {
-        out.push(rows[0] * width + columns[0]);
-    } else if size[0] >= size[1] {
-        let middle = rows[0] + size[0] / 2;
-        in_order([rows[0], middle], columns, width, out);
-        in_order([middle, rows[1]], columns, width, out);
-    } else {
-        let middle = columns[0] + size[1] / 2;
-        in_order(rows, [columns[0], middle], width, out);
-        in_order(rows, [middle, columns[1]], width, out);
-    }
-}
-
-/// Builds the node of a range of boxes; returns its number and box.
-fn build(nodes: &mut Vec<Node>, boxes: &[Aabb], first: usize, last: usize) -> (u32, Aabb) {
-    let number = nodes.len();
-    nodes.push(Node {
-        low: [[f32::INFINITY; WIDTH]; 3],
-        high: [[f32::NEG_INFINITY; WIDTH]; 3],
-        child: [0; WIDTH],
-    });
-    let mut all = Aabb::EMPTY;
-    let count = last - first;
-    let parts = count.min(WIDTH);
-    for slot in 0..parts {
-        let (a, b) = (first + count * slot / parts, first + count * (slot + 1) / parts);
-        let (child, aabb) =
-            if b - a == 1 { (LEAF | a as u32, boxes[a]) } else { build(nodes, boxes, a, b) };
-        let node = &mut nodes[number];
-        node.child[slot] = child;
-        for c in 0..3 {
-            node.low[c][slot] = (aabb.low[c] as f32).next_down();
-            node.high[c][slot] = (aabb.high[c] as f32).next_up();
-        }
-        all = all.union(aabb);
-    }
-    (number as u32, all)
-}
-
-/// How long a ray is in each of eight boxes, negative where it misses.
-struct Slabs<'a> {
-    node: &'a Node,
-    beam: &'a Beam,
-}
-
-impl Kernel for Slabs<'_> {
-    type Out = [f64; WIDTH];
-
-    #[inline(always)]
-    fn run<S: Simd>(self, _: S) -> [f64; WIDTH] {
-        let slack = S::F8::splat(self.beam.slack);
-        let mut enter = S::F8::splat(self.beam.reach[0]);
-        let mut leave = S::F8::splat(self.beam.reach[1]);
-        for k in 0..3 {
-            let (mut low, mut high) = ([0.0; WIDTH], [0.0; WIDTH]);
-            for slot in 0..WIDTH {
-                low[slot] = f64::from(self.node.low[k][slot]);
-                high[slot] = f64::from(self.node.high[k][slot]);
-            }
-            let o = S::F8::splat(self.beam.axis.origin[k]);
-            let i = S::F8::splat(self.beam.inverse[k]);
-            let a = (S::F8::load(&low) - o - slack) * i;
-            let b = (S::F8::load(&high) - o + slack) * i;
-            enter = a.min(b).max(enter);
-            leave = a.max(b).min(leave);
-        }
-        // Boxes in floats are wider than the rounding of these products: half a unit of 2^-24.
-        (leave - enter).array()
-    }
 }

@@ -131,7 +131,9 @@ impl IndexedSurface {
             });
         });
         let unwrap = |cell: Mutex<Option<Result<Section, Error>>>| {
-            cell.into_inner().unwrap_or_else(PoisonError::into_inner).unwrap_or(Err(Error::Cancelled))
+            cell.into_inner()
+                .unwrap_or_else(PoisonError::into_inner)
+                .unwrap_or(Err(Error::Cancelled))
         };
         results.into_iter().map(unwrap).collect()
     }
@@ -187,8 +189,11 @@ impl<'a> Work<'a> {
                     let speeds = |s: f64, t: f64| self.speeds(patch, s, t);
                     let least = self.tolerance * self.index.frame.scale;
                     let least = least.max(LEAST_ROOTS * flat.sqrt());
-                    Field { patch, polynomial, flat, speeds: &speeds, least }
-                        .search(&edges, &mut level, &mut budget);
+                    Field { patch, polynomial, flat, speeds: &speeds, least }.search(
+                        &edges,
+                        &mut level,
+                        &mut budget,
+                    );
                 }
             }
         }
@@ -209,7 +214,8 @@ impl<'a> Work<'a> {
             undecided: &undecided,
         };
         section.branches = branches(&level, &drawing);
-        section.overlaps = joined(level.flat.iter().map(|&patch| self.area(patch, [0., 1., 0., 1.])).collect());
+        section.overlaps =
+            joined(level.flat.iter().map(|&patch| self.area(patch, [0., 1., 0., 1.])).collect());
         section.undecided = joined(std::mem::take(&mut section.undecided));
         Ok(section)
     }
@@ -430,7 +436,9 @@ impl<'a> Work<'a> {
                 if !std::mem::replace(&mut done[node], true) {
                     let at = [f64::from(u8::from(k >= 2)), f64::from(u8::from(k % 2 == 1))];
                     let at = self.place(patch, at);
-                    section.contacts.push(Contact { at, distance: self.quadric.distance(at.point) });
+                    section
+                        .contacts
+                        .push(Contact { at, distance: self.quadric.distance(at.point) });
                 }
             }
         }
