@@ -213,6 +213,7 @@ static void rays_hit(void) {
     CHECK_ERROR(fpt_ray_hits_starts(hits, RAYS, starts), FPT_INVALID_ARGUMENT, "capacity");
     CHECK_ERROR(fpt_ray_hits_flags(hits, 1, flags), FPT_INVALID_ARGUMENT, "capacity");
     fpt_ray_hits_free(hits);
+    options.threads = 1;
     options.should_stop = stop;
     options.user = &asked;
     CHECK_STATUS(fpt_caster_first(caster, origins, directions, RAYS, NULL, &options, one), FPT_CANCELLED);

@@ -162,3 +162,32 @@ fn a_line_through_a_point_of_any_surface_hits_it() {
         }
     }
 }
+
+#[test]
+fn batches_have_the_same_bits_for_any_number_of_threads() {
+    let caster = caster(torus());
+    let mut random = Random(17);
+    let rays: Vec<Ray> = (0..3_000)
+        .map(|_| Ray { origin: random.point(3.0), direction: random.point(1.0), reach: ALL })
+        .collect();
+    let cast = |threads: usize| {
+        let mut out = vec![Hit::none(0); rays.len()];
+        caster.first_hits(&|k| rays[k], &mut out, threads, &mut |_| false).unwrap();
+        out
+    };
+    let one = cast(1);
+    let bits = |list: &[Hit]| {
+        list.iter().map(|h| (h.t.to_bits(), h.u.to_bits(), h.count)).collect::<Vec<_>>()
+    };
+    assert_eq!(bits(&one), bits(&cast(4)));
+    let all = caster.all_hits(&|k| rays[k], rays.len(), 3, &mut |_| false).unwrap();
+    for (k, hit) in one.iter().enumerate() {
+        let own = &all.hits[all.starts[k]..all.starts[k + 1]];
+        assert_eq!(own.len(), hit.count as usize);
+        assert!(own.is_empty() || own[0].t == hit.t);
+        assert!(own.windows(2).all(|pair| pair[0].t <= pair[1].t));
+    }
+    let stopped =
+        caster.first_hits(&|k| rays[k], &mut vec![Hit::none(0); 3_000], 1, &mut |done| done > 500);
+    assert!(stopped.is_err());
+}

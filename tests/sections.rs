@@ -292,3 +292,86 @@ fn equal_cylinders_cross_in_two_ellipses_with_two_junctions() {
         }
     }
 }
+
+/// A sheet with `rows` x `rows` bumps whose tops are at 4/9, bicubic; each top is a single point.
+fn bumps(rows: usize) -> IndexedSurface {
+    let count = 4 * rows + 3;
+    let knots: Vec<f64> = (0..count + 4).map(|k| k as f64 - 3.0).collect();
+    let mut poles = Vec::new();
+    for i in 0..count {
+        for j in 0..count {
+            let up = i % 4 == 3 && j % 4 == 3;
+            poles.push([i as f64 * 0.25, j as f64 * 0.25, if up { 1.0 } else { 0.0 }]);
+        }
+    }
+    IndexedSurface::new(Surface::new(&knots, &knots, 3, 3, &poles, count, count, None).unwrap())
+}
+
+#[test]
+fn all_small_loops_are_found_as_loops() {
+    for rows in [1, 3, 10] {
+        let sheet = bumps(rows);
+        for m in motions() {
+            if rows == 10 && m.scale != 1.0 {
+                continue;
+            }
+            let shape = m.surface(&sheet);
+            for gap in [1e-2, 1e-4, 1e-6, 1e-8] {
+                // Far from the origin the poles themselves are rounded by more.
+                if gap * m.scale < 1e5 * f64::EPSILON * norm(m.offset) {
+                    continue;
+                }
+                let section = cut(&shape, &plane(&m, [0.0, 0.0, 4.0 / 9.0 - gap], [0.0, 0.0, 1.0]));
+                let text = || summary(&section);
+                assert!(section.is_complete(), "{rows} {gap} {m:?} {}", text());
+                assert_eq!(loops(&section), rows * rows, "{rows} {gap} {m:?}");
+                assert_eq!(section.branches.len(), rows * rows, "{rows} {gap} {m:?}");
+                let above = plane(&m, [0.0, 0.0, 4.0 / 9.0 + gap], [0.0, 0.0, 1.0]);
+                assert_eq!(cut(&shape, &above), Section::default());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_stack_of_planes_is_the_planes_one_by_one_for_any_number_of_threads() {
+    let shape = torus();
+    let planes: Vec<Quadric> = (0..40)
+        .map(|k| Quadric::plane([0.0, 0.0, -0.6 + 0.03 * k as f64], [0.1, 0.2, 1.0]).unwrap())
+        .collect();
+    let options = SectionOptions { chord: 1e-3, ..SectionOptions::default() };
+    let alone: Vec<Section> =
+        planes.iter().map(|p| shape.section(p, &options, &mut || false).unwrap()).collect();
+    for threads in [1, 3] {
+        let together = shape.sections(&planes, &options, threads, &mut |_| false).unwrap();
+        assert_eq!(together, alone);
+    }
+    assert!(shape.sections(&planes, &options, 2, &mut |_| true).is_err());
+}
+
+#[test]
+fn polylines_keep_to_the_chord_tolerance() {
+    let shape = torus();
+    let plane = Quadric::plane([0.0, 0.0, 0.1], [0.3, 0.2, 1.0]).unwrap();
+    for chord in [1e-2, 1e-4, 1e-6] {
+        let options = SectionOptions { chord, ..SectionOptions::default() };
+        let section = shape.section(&plane, &options, &mut || false).unwrap();
+        for branch in &section.branches {
+            for pair in branch.points.windows(2) {
+                let middle = [0, 1, 2].map(|k| 0.5 * (pair[0].point[k] + pair[1].point[k]));
+                // Distance of the chord's middle from the torus: no more than that from the branch.
+                let off = (middle[0].hypot(middle[1]) - 2.0).hypot(middle[2]) - 0.5;
+                assert!(off.abs() <= chord, "{chord} {off}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_spent_budget_lists_what_is_open() {
+    let options = SectionOptions { budget: 3, ..SectionOptions::default() };
+    let plane = Quadric::plane([0.0, 0.0, 0.0], [0.25, 0.0, 0.968_245_836_551_854_3]).unwrap();
+    let section = torus().section(&plane, &options, &mut || false).unwrap();
+    assert!(!section.is_complete());
+    assert!(torus().section(&plane, &options, &mut || true).is_err());
+}

@@ -114,6 +114,8 @@ double median(std::vector<double> list) {
 }
 
 struct Table {
+    Table(const char *what, const char *who) : name(what), peer(who) {}
+
     const char *name;
     const char *peer;
     size_t ours = 0, theirs = 0, missed = 0, more = 0;
