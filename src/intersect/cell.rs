@@ -15,7 +15,7 @@ use crate::bounds::{HALF_ULP, Vector, add, cross, dot, norm, scaled, sub};
 use crate::index::position_steps;
 
 /// The greatest `|Y| slope` at which a line is taken to cross a cell at most once.
-pub const MOST_DEVIATION: f64 = 0.8;
+pub const MOST_DEVIATION: f64 = 0.9;
 
 /// The model of a piece.
 #[derive(Clone, Copy, Debug)]
@@ -214,6 +214,16 @@ impl Cell {
         if det <= 1e-18 * e * g { f64::INFINITY } else { (e.max(g) / det).sqrt() * self.slope }
     }
 
+    /// Whether a line that grazes passes beside: seen along it the cell is a strip.
+    fn is_beside(&self, axis: &Axis, r: Vector, off: f64) -> bool {
+        let n = cross(self.edges[0], self.edges[1]);
+        let m = sub(n, scaled(axis.direction, dot(n, axis.direction)));
+        let spread = dot(m, self.edges[0]).abs() + dot(m, self.edges[1]).abs() + norm(m) * off;
+        // What rounding leaves of m along the line, over lengths of at most 4 in the coordinates of the index.
+        let rounding = 128.0 * HALF_ULP * norm(n);
+        dot(m, r).abs() > spread * (1.0 + 64.0 * HALF_ULP) + rounding
+    }
+
     /// Tests a line in the cell's coordinates; `slack` bounds the rounding of its place.
     #[inline]
     pub fn meet(&self, axis: &Axis, slack: f64) -> Meeting {
@@ -226,7 +236,9 @@ impl Cell {
                 return Meeting::None;
             }
         }
-        let Some((y, lengths)) = inverse(axis, &self.edges) else { return Meeting::Open };
+        let Some((y, lengths)) = inverse(axis, &self.edges) else {
+            return if self.is_beside(axis, r, off) { Meeting::None } else { Meeting::Open };
+        };
         let at = y.map(|row| -(row[0] * c[0] + row[1] * c[1]));
         let reach = lengths.map(|l| l * off + 16.0 * HALF_ULP);
         if (0..2).any(|k| at[k].abs() - reach[k] > 1.0) {
@@ -234,7 +246,7 @@ impl Cell {
         }
         let deviation = lengths[0].max(lengths[1]) * self.slope;
         if !(deviation <= MOST_DEVIATION) {
-            return Meeting::Open;
+            return if self.is_beside(axis, r, off) { Meeting::None } else { Meeting::Open };
         }
         let is_inside = (0..2).all(|k| at[k].abs() + reach[k] < 1.0);
         // One step of the quadratic model.

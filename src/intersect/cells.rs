@@ -13,7 +13,7 @@ pub const WIDTH: usize = 8;
 pub const LEAF: u32 = 1 << 31;
 
 /// Cells are cut until their crookedness is below this.
-const CALM: f64 = 0.3;
+const CALM: f64 = 0.2;
 
 /// Most cells, unless there are more patches.
 const MOST_CELLS: usize = 1 << 19;

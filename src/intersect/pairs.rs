@@ -469,7 +469,23 @@ impl Pairs<'_> {
             let inside: [f64; 3] = std::array::from_fn(|k| x[k].clamp(-1.0, 1.0));
             let (here, _) = self.difference(a, b, local(&inside), areas, first);
             if norm(here) <= self.tolerance {
-                return Some(Verdict::Found(self.found(a, b, local(&inside), FoundKind::Crossing)));
+                let rim = |k: usize| (RIM / (areas[k][1] - areas[k][0])).min(1e-3);
+                if (0..n).all(|k| x[k].abs() <= 1.0 + rim(k)) {
+                    let found = self.found(a, b, local(&inside), FoundKind::Crossing);
+                    return Some(Verdict::Found(found));
+                }
+                // Beyond the rim but near enough: an end that falls short, or a neighbour's crossing. All near places
+                // are within reach of it.
+                let ends = [-1.0, 1.0].map(|sign| {
+                    local(&std::array::from_fn(|k| (x[k] + sign * reach).clamp(-1.0, 1.0)))
+                });
+                let (mut p, mut q) = (*a, *b);
+                for k in first..2 {
+                    (p.area[2 * k], p.area[2 * k + 1]) = (ends[0][k], ends[1][k]);
+                }
+                (q.area[2], q.area[3]) = (ends[0][2], ends[1][2]);
+                let found = self.found(&p, &q, local(&inside), FoundKind::Together);
+                return Some(Verdict::Found(found));
             }
             // Skew: nearer than this nothing comes.
             let apart = norm(d) - slope * reach - off * 1e-9;

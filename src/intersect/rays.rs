@@ -314,6 +314,13 @@ impl Caster {
                 let [s0, s1, t0, t1] = placed.area;
                 let half = [0.5 * (s1 - s0), 0.5 * (t1 - t0)];
                 let middle = [0.5 * (s0 + s1), 0.5 * (t0 + t1)];
+                // Most of those that come out beside the cell are shown to with one value.
+                if !is_inside && at.iter().any(|x| x.abs() > 1.0) {
+                    let edge = at.map(|x| x.clamp(-1.0, 1.0));
+                    if self.is_outside(index, placed, base, beam, edge, deviation) {
+                        return Some(());
+                    }
+                }
                 let (inner, along, slant) = newton(
                     index,
                     patch,

@@ -21,7 +21,7 @@ const NONE: f64 = 1e-6;
 
 /// Boxes narrower than so many square roots of what counts as none are not taken apart: nearer to a crossing, which arm is
 /// which does not mean anything.
-const LEAST_ROOTS: f64 = 8.0;
+const LEAST_ROOTS: f64 = 4.0;
 
 /// What is asked of a section; zeros are the defaults.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -241,7 +241,7 @@ impl<'a> Work<'a> {
             if low > f.error || high < -f.error {
                 cells.push(Cell::Clear);
             } else {
-                flat = flat.max(64.0 * f.error);
+                flat = flat.max(4.0 * f.error);
                 cells.push(Cell::Open(f));
             }
         }
@@ -405,12 +405,11 @@ impl<'a> Work<'a> {
             let Cell::Open(f) = &cells[lump.patch] else { continue };
             let [s0, s1, t0, t1] = lump.area;
             let middle = [0.5 * (s0 + s1), 0.5 * (t0 + t1)];
-            let stationary = stationary(f, middle, 64.0 * (s1 - s0).max(t1 - t0));
-            for at in [Some(middle), stationary].into_iter().flatten() {
-                let size = value(&f.values, f.degree, at).abs();
-                if size < best.2 || (Some(at) == stationary && size <= 2.0 * f.error) {
-                    best = (lump.patch, at, size);
-                }
+            // Where the slope vanishes the value tells whether they touch or a loop is too small to be taken apart.
+            let at = stationary(f, middle, 64.0 * (s1 - s0).max(t1 - t0)).unwrap_or(middle);
+            let size = value(&f.values, f.degree, at).abs();
+            if size < best.2 {
+                best = (lump.patch, at, size);
             }
         }
         best
