@@ -8,7 +8,7 @@ const HEADER: &str = "include/footpoint.h";
 /// Setting this variable writes the header instead of comparing it.
 const WRITE: &str = "FOOTPOINT_WRITE_HEADER";
 /// The files that hold the C API, in the order in which the header has them.
-const SOURCES: [&str; 21] = [
+const SOURCES: [&str; 27] = [
     "src/ffi.rs",
     "src/ffi/records.rs",
     "src/ffi/options.rs",
@@ -27,6 +27,12 @@ const SOURCES: [&str; 21] = [
     "src/ffi/weights.rs",
     "src/ffi/weights_report.rs",
     "src/ffi/weights_edit.rs",
+    "src/ffi/transform.rs",
+    "src/ffi/support.rs",
+    "src/ffi/trim.rs",
+    "src/ffi/trim_parts.rs",
+    "src/ffi/trim_change.rs",
+    "src/ffi/trim_report.rs",
     "src/ffi/intersect_records.rs",
     "src/ffi/intersect.rs",
     "src/ffi/intersect_rays.rs",

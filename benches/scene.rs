@@ -1,6 +1,7 @@
 //! A scene of a thousand real surfaces against one surface, on the same queries.
 //!
-//! `cargo bench --bench scene`; arguments: `members=1000 queries=2000`. The surfaces are the cases real_s_* (or those of
+//! `cargo bench --bench scene`, and part of `make bench`; arguments: `members=1000 queries=2000 csv=FILE`, a line an arrangement:
+//! `scene,NAME,SCENE us,ALONE us,HINTED us,WORST us,WRONG,NOT PROVEN`. The surfaces are the cases real_s_* (or those of
 //! tests/data), scaled to a diagonal of 1, turned at random and placed on a grid: apart, like the faces of a part, and with
 //! boxes that overlap many times. Each query is one of the cases' own, moved with a member. The same queries are then asked
 //! of the nearest member alone; the first 200 are checked against every member alone. Times are microseconds on one thread, each query alone, the least of three repeats.
@@ -35,11 +36,15 @@ fn main() {
     let (members, queries) = (number("members", 1000), number("queries", 2000));
     let models = models();
     let only = arguments.iter().find_map(|a| a.strip_prefix("only=")).unwrap_or("").to_string();
+    let mut csv = String::new();
     println!("{members} members from {} surfaces, {queries} queries", models.len());
     for (name, spacing) in [("apart", 1.3), ("part", 0.7), ("overlapping", 0.4), ("heap", 0.25)] {
         if name.contains(&only) {
-            measure(name, &models, members, spacing, queries);
+            csv += &measure(name, &models, members, spacing, queries);
         }
+    }
+    if let Some(file) = arguments.iter().find_map(|a| a.strip_prefix("csv=")) {
+        std::fs::write(file, csv).expect("a file for the figures");
     }
 }
 
@@ -136,7 +141,8 @@ fn is_wrong(
     })
 }
 
-fn measure(name: &str, models: &[Model], count: usize, spacing: f64, queries: usize) {
+/// Prints an arrangement's figures and returns its line for the file.
+fn measure(name: &str, models: &[Model], count: usize, spacing: f64, queries: usize) -> String {
     let random = &mut Random(7);
     let side = (count as f64).cbrt().ceil() as usize;
     let members: Vec<Member> = (0..count)
@@ -183,4 +189,5 @@ fn measure(name: &str, models: &[Model], count: usize, spacing: f64, queries: us
          worst {worst:.0} us; {wrong} wrong, {unproven} not proven, {ties} ties; made in {made:.1} ms, prepared in {prepared:.0} ms",
         scene / own
     );
+    format!("scene,{name},{scene},{own},{hinted},{worst},{wrong},{unproven}\n")
 }

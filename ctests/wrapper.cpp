@@ -449,6 +449,53 @@ void weights_are_those_of_the_c_api() {
     CHECK(rest.weights()[1] > 0);
 }
 
+void trims_are_those_of_the_c_api() {
+    const double pi = 3.14159265358979323846;
+    footpoint::elementary_data data(FPT_ELEMENTARY_SPHERE, {0, 2 * pi, -pi / 2, pi / 2});
+    data.first = 2;
+    const footpoint::support sphere(data);
+    CHECK(sphere.domain()[1] == 2 * pi && sphere.evaluate({0, 0})[0] == 2);
+    const footpoint::circle_forms arcs{0, 2};
+    const footpoint::support form(sphere.spline(arcs));
+    const footpoint::transform exact = sphere.spline_transform(arcs), found = sphere.match(form);
+    CHECK(exact.keeps_direction() && exact.image()[1] == 1 && exact.domain()[3] == pi / 2);
+    const auto there = exact({1, 0.5}), back = exact.inverse()(there), also = found({1, 0.5});
+    CHECK_NEAR(back[0], 1, 1e-14);
+    CHECK_NEAR(also[0], there[0], 1e-12);
+    CHECK_NEAR(exact.then(exact.inverse())({1, 0.5})[1], 0.5, 1e-15);
+    CHECK_NEAR(sphere.match(form, {1, 0.5}).front().v, there[1], 1e-12);
+    CHECK(sphere.spline().domain()[1] == 1 && sphere.spline_transform().image()[1] == 1);
+    const footpoint::trimmed_surface face(sphere);
+    CHECK(face.edge_count() == 3 && face.loop_count() == 1 && face.coedge_count(0) == 4);
+    CHECK(!face.is_inner(0) && !face.is_flipped() && face.coedge(0, 0).kind == FPT_PCURVE_ISOLINE);
+    CHECK(face.edge_point(0)[2] == -2);
+    CHECK_NEAR(face.evaluate(0, 1, 0.5)[0], 2, 1e-15);
+    fpt_change_summary summary{};
+    const auto nurbs = face.to_nurbs(arcs, footpoint::change_options(), &summary);
+    CHECK(summary.proven == 1 && summary.deviation == 0);
+    CHECK(nurbs.to_elementary(sphere, arcs).report().findings.empty());
+    CHECK(face.change(exact, form).report().summary.finding_count == 0);
+    const footpoint::relation turn = footpoint::relation::linear({0, 1}, {1, 0});
+    const footpoint::relation stay = footpoint::relation::through({0, 0.5, 1}, {0, 0.5, 1});
+    CHECK(turn.then(turn)(0.25) == 0.25 && turn.inverse()(0.25) == 0.75);
+    CHECK(nurbs.reparametrise(footpoint::transform(turn, stay)).is_flipped());
+    CHECK(face.follow(form).loop_count() == 1);
+    CHECK(footpoint::trimmed_surface::from_json(face.json()).json() == face.json());
+    CHECK(face.picture("whole").find("whole") != std::string::npos);
+    CHECK(face.support().domain() == sphere.domain());
+    const auto half = footpoint::relation::circle(0, pi, {0, 1}, {0, 1});
+    const fpt_relation *const pieces[] = {half.get()};
+    CHECK(footpoint::relation::piecewise(pieces).domain().second[1] == 1);
+    CHECK_NEAR(half(0.25), 2 / pi * std::atan2(0.25, 0.75), 1e-15);
+    const auto square = footpoint::relation::from_function([](double x) { return x * x; },
+                                                           [](double y) { return std::sqrt(y); }, {1, 3});
+    CHECK(square(2) == 4);
+    data.domain[2] = -1;
+    data.domain[3] = 1;
+    footpoint::elementary_data left = data, right = data;
+    left.domain[1] = right.domain[0] = 2;
+    const footpoint::trimmed_surface a{footpoint::support(left)}, b{footpoint::support(right)};
+    CHECK(a.merge(b, 0, footpoint::support(data)).coedge_count(0) == 6);
 void intersections_are_those_of_the_c_api() {
     const std::vector<double> ends = {0, 0, 1, 1};
     const curve a(1, ends, std::vector<double>{0, 0, 0, 2, 2, 0}), b(1, ends, std::vector<double>{0, 2, 0, 2, 0, 0});
@@ -503,6 +550,7 @@ int main() {
     RUN(normals_without_sides_and_derivatives_in_scenes);
     RUN(misuse_throws);
     RUN(weights_are_those_of_the_c_api);
+    RUN(trims_are_those_of_the_c_api);
     RUN(intersections_are_those_of_the_c_api);
     RUN(versions_agree);
     return check_report("wrapper");

@@ -5,7 +5,7 @@
  * Said once, for every function:
  *
  * Units     Lengths, tolerances and distances are in the unit of the poles. Parameters are in the unit of
- *           the knots. Angles do not occur.
+ *           the knots; those of elementary surfaces that are angles are in radians.
  * Failure   A function that can fail returns an fpt_status: FPT_OK (0) or a number of fpt_status_code.
  *           fpt_last_error() has the text of the calling thread's last failure; it names the parameter
  *           and the index. Outputs are written only when FPT_OK is returned (exceptions: FPT_CANCELLED
@@ -370,6 +370,143 @@ typedef enum fpt_weights_unit {
 } fpt_weights_unit;
 
 /**
+ * The kinds of elementary surfaces, for fpt_elementary_data.kind. Angles in radians.
+ */
+typedef enum fpt_elementary_kind {
+    /**
+     * origin + u x + v y.
+     */
+    FPT_ELEMENTARY_PLANE = 0,
+    /**
+     * Radius first; u the angle, v the height.
+     */
+    FPT_ELEMENTARY_CYLINDER = 1,
+    /**
+     * Radius first at v = 0, half angle second (with sign); u the angle, v the length along a generatrix.
+     */
+    FPT_ELEMENTARY_CONE = 2,
+    /**
+     * Radius first; u the longitude, v the latitude, -pi/2 to pi/2.
+     */
+    FPT_ELEMENTARY_SPHERE = 3,
+    /**
+     * Major radius first, minor radius second; u the angle about the axis, v that of the tube.
+     */
+    FPT_ELEMENTARY_TORUS = 4,
+    /**
+     * The curve turned about the axis z through the origin by the angle u (right-handed); v is the curve's parameter.
+     */
+    FPT_ELEMENTARY_REVOLUTION = 5,
+    /**
+     * The curve moved along the vector z (of any length): curve(u) + v z.
+     */
+    FPT_ELEMENTARY_EXTRUSION = 6,
+} fpt_elementary_kind;
+
+/**
+ * The kinds of curves in the domain, for fpt_coedge_data.kind.
+ */
+typedef enum fpt_pcurve_kind {
+    /**
+     * values: 0 when u is fixed, 1 when v is; its value; where the other parameter begins and ends.
+     */
+    FPT_PCURVE_ISOLINE = 0,
+    /**
+     * points joined by lines, at parameters.
+     */
+    FPT_PCURVE_POLYLINE = 1,
+    /**
+     * A spline curve with z = 0.
+     */
+    FPT_PCURVE_SPLINE = 2,
+    /**
+     * values: centre; half diameter of t = 0; half diameter of a quarter turn, conjugate to it; first and last t, at most a
+     * full turn: centre + cos t first + sin t second.
+     */
+    FPT_PCURVE_ARC = 3,
+} fpt_pcurve_kind;
+
+/**
+ * Bits of fpt_coedge_data.flags.
+ */
+typedef enum fpt_coedge_flag {
+    /**
+     * The coedge runs against its edge.
+     */
+    FPT_COEDGE_REVERSED = 1,
+    /**
+     * The place at a share s of the pcurve's domain lies on the edge at the share s of its domain (1 - s when reversed).
+     */
+    FPT_COEDGE_SAME_PARAMETER = 2,
+} fpt_coedge_flag;
+
+/**
+ * What becomes of splines and arcs in the domain under transforms that are not linear, for fpt_change_options.replacement.
+ */
+typedef enum fpt_replacement {
+    /**
+     * Polylines.
+     */
+    FPT_REPLACEMENT_POLYLINE = 0,
+    /**
+     * Cubic splines.
+     */
+    FPT_REPLACEMENT_SPLINE = 1,
+    /**
+     * Polylines; of polylines the vertices are mapped and none is added: they stand for themselves.
+     */
+    FPT_REPLACEMENT_VERTICES = 2,
+} fpt_replacement;
+
+/**
+ * What can be wrong with a face, for fpt_trim_finding.kind.
+ */
+typedef enum fpt_finding_kind {
+    /**
+     * A coedge ends away from the beginning of the next one: numbers are the gap in space (0 across a seam or along a collapsed
+     * edge that is missing), and in u and v.
+     */
+    FPT_FINDING_OPEN = 0,
+    /**
+     * A loop runs the wrong way: numbers[0] is its area in the domain.
+     */
+    FPT_FINDING_DIRECTION = 1,
+    /**
+     * The area of a loop is so small that its direction cannot be told.
+     */
+    FPT_FINDING_NO_DIRECTION = 2,
+    /**
+     * Two coedges cross, proven; or one crosses itself.
+     */
+    FPT_FINDING_CROSSING = 3,
+    /**
+     * Two coedges come nearer than the tolerance away from common ends: numbers[0] bounds their distance in space.
+     */
+    FPT_FINDING_TOUCHING = 4,
+    /**
+     * The image of a pcurve is away from its edge: numbers[0] is the distance.
+     */
+    FPT_FINDING_EDGE_GAP = 5,
+    /**
+     * A pcurve leaves the domain: numbers are by how much in u and v.
+     */
+    FPT_FINDING_OUTSIDE = 6,
+    /**
+     * A loop is not where its kind says: numbers[0] counts the outer loops around it less the holes around it, 1 for a hole
+     * and 0 for an outer loop that are right.
+     */
+    FPT_FINDING_CONTAINMENT = 7,
+    /**
+     * Both coedges of an edge run along it the same way; `loop_index` is the number of the edge.
+     */
+    FPT_FINDING_SENSE = 8,
+    /**
+     * The surface's function fails on a coedge.
+     */
+    FPT_FINDING_FAILING = 9,
+} fpt_finding_kind;
+
+/**
  * What a fpt_quadric is.
  */
 typedef enum fpt_quadric_kind {
@@ -521,6 +658,12 @@ typedef struct fpt_foot_set fpt_foot_set;
 typedef struct fpt_ray_hits fpt_ray_hits;
 
 /**
+ * A monotone function of one parameter on an interval, with its inverse. Immutable: any number of threads may use one at a time.
+ * Owned by the caller, released by fpt_relation_free.
+ */
+typedef struct fpt_relation fpt_relation;
+
+/**
  * Many curves and surfaces that are searched together. Immutable, as they are: any number of threads may use one at a time.
  * Made by fpt_scene_new, owned by the caller, released by fpt_scene_free. It shares the shapes of the handles it was
  * made from: these may be freed before or after it.
@@ -533,12 +676,35 @@ typedef struct fpt_scene fpt_scene;
 typedef struct fpt_sections fpt_sections;
 
 /**
+ * The surface under a face. Immutable: any number of threads may use one at a time. Owned by the caller, released by
+ * fpt_support_free; what it was made from may be freed before or after it.
+ */
+typedef struct fpt_support fpt_support;
+
+/**
  * A surface. Immutable: any number of threads may use one at a time. The search index is built on first
  * use, by one thread while the others wait. Made by fpt_surface_new or fpt_surface_from_callback, owned by
  * the caller, released by fpt_surface_free. A surface from a callback has no degrees, knots, poles and
  * weights: functions that need them return FPT_UNSUPPORTED.
  */
 typedef struct fpt_surface fpt_surface;
+
+/**
+ * A change of both parameters: (u, v) to (f(u), g(v)), or to (g(v), f(u)). Immutable: any number of threads may use one at a time.
+ * Owned by the caller, released by fpt_transform_free.
+ */
+typedef struct fpt_transform fpt_transform;
+
+/**
+ * A trimmed surface: a surface, loops of curves in its domain, and their edges in space; the structure of IGES entities 142 and 144
+ * and of faces in STEP. Immutable: any number of threads may use one at a time. Owned by the caller, released by fpt_trim_free.
+ */
+typedef struct fpt_trim fpt_trim;
+
+/**
+ * What was found wrong with a face. Immutable. Owned by the caller, released by fpt_trim_report_free.
+ */
+typedef struct fpt_trim_report fpt_trim_report;
 
 /**
  * What a method found: weights, and for each pole what was wished and what was achieved. Immutable, owned by the caller, released
@@ -1163,6 +1329,330 @@ typedef struct fpt_weights_conic_shape {
      */
     double eccentricity;
 } fpt_weights_conic_shape;
+
+/**
+ * The input of fpt_relation_from_callback.
+ */
+typedef struct fpt_relation_callback {
+    /**
+     * sizeof(fpt_relation_callback).
+     */
+    size_t struct_size;
+    /**
+     * The value at x in the domain: finite, all rising or all falling. Called from any thread; the same numbers for the same x; must
+     * not throw or longjmp.
+     */
+    double (*forward)(void *user, double x);
+    /**
+     * The place of a value.
+     */
+    double (*backward)(void *user, double y);
+    /**
+     * Handed to all three functions as it is.
+     */
+    void *user;
+    /**
+     * Called once with `user` when nothing uses the functions any more. NULL: nothing to release.
+     */
+    void (*release)(void *user);
+    /**
+     * First and last place.
+     */
+    double domain[2];
+} fpt_relation_callback;
+
+/**
+ * The input of fpt_support_elementary. Copied: nothing is borrowed after the call.
+ */
+typedef struct fpt_elementary_data {
+    /**
+     * sizeof(fpt_elementary_data).
+     */
+    size_t struct_size;
+    /**
+     * A value of fpt_elementary_kind.
+     */
+    uint32_t kind;
+    /**
+     * Must be 0.
+     */
+    uint32_t reserved;
+    /**
+     * Start and end of u, start and end of v. An angle spans at most a full turn.
+     */
+    double domain[4];
+    /**
+     * A point of the axis, the centre, or the place of u = v = 0 of a plane.
+     */
+    double origin[3];
+    /**
+     * Direction of the angle 0. x, y, z are orthonormal within 1e-12, right-handed or left-handed; x and y are not looked at by
+     * revolutions and extrusions.
+     */
+    double x[3];
+    /**
+     * Direction of a quarter turn.
+     */
+    double y[3];
+    /**
+     * The axis.
+     */
+    double z[3];
+    /**
+     * What the kind calls first.
+     */
+    double first;
+    /**
+     * What the kind calls second.
+     */
+    double second;
+    /**
+     * A spline curve, for revolutions and extrusions; else NULL.
+     */
+    const struct fpt_curve *curve;
+} fpt_elementary_data;
+
+/**
+ * A curve in space, or the point of a collapsed side. 40 bytes, frozen.
+ */
+typedef struct fpt_edge_data {
+    /**
+     * All of the curve; NULL: a point.
+     */
+    const struct fpt_curve *curve;
+    /**
+     * The point; looked at without a curve.
+     */
+    double point[3];
+    /**
+     * 1: the edge runs against its curve; 0: along it.
+     */
+    uint32_t reversed;
+    /**
+     * Must be 0.
+     */
+    uint32_t reserved;
+} fpt_edge_data;
+
+/**
+ * A curve of a loop. 112 bytes, frozen.
+ */
+typedef struct fpt_coedge_data {
+    /**
+     * A value of fpt_pcurve_kind.
+     */
+    uint32_t kind;
+    /**
+     * Sum of fpt_coedge_flag values.
+     */
+    uint32_t flags;
+    /**
+     * Number of its edge; SIZE_MAX: none, the edge is only known as the image of the pcurve.
+     */
+    size_t edge;
+    /**
+     * Numbers of an isoline (4) or an arc (8).
+     */
+    double values[8];
+    /**
+     * u,v of the points of a polyline.
+     */
+    const double *points;
+    /**
+     * Increasing parameters of the points; NULL: 0, 1, 2, ...
+     */
+    const double *parameters;
+    /**
+     * Points of a polyline, at least 2.
+     */
+    size_t point_count;
+    /**
+     * The spline.
+     */
+    const struct fpt_curve *curve;
+} fpt_coedge_data;
+
+/**
+ * A closed chain of curves, each beginning where the one before ends. 24 bytes, frozen.
+ */
+typedef struct fpt_loop_data {
+    /**
+     * 0: outer, counter-clockwise; 1: inner, clockwise.
+     */
+    uint32_t is_inner;
+    /**
+     * Must be 0.
+     */
+    uint32_t reserved;
+    /**
+     * The curves in their order.
+     */
+    const struct fpt_coedge_data *coedges;
+    /**
+     * At least 1.
+     */
+    size_t coedge_count;
+} fpt_loop_data;
+
+/**
+ * The input of fpt_trim_new. Copied: nothing is borrowed after the call.
+ */
+typedef struct fpt_trim_data {
+    /**
+     * sizeof(fpt_trim_data).
+     */
+    size_t struct_size;
+    /**
+     * The surface.
+     */
+    const struct fpt_support *support;
+    /**
+     * The edges; coedges refer to them by number. Each is used once, or twice: a seam.
+     */
+    const struct fpt_edge_data *edges;
+    /**
+     * May be 0.
+     */
+    size_t edge_count;
+    /**
+     * The loops.
+     */
+    const struct fpt_loop_data *loops;
+    /**
+     * At least 1.
+     */
+    size_t loop_count;
+    /**
+     * 1: the normal of the face is opposite to Su x Sv; 0: it is that.
+     */
+    uint32_t flipped;
+    /**
+     * Must be 0.
+     */
+    uint32_t reserved;
+} fpt_trim_data;
+
+/**
+ * How a face is changed. Fill it with fpt_change_options_init. All zero after struct_size is the default of everything. Grows at the
+ * end only.
+ */
+typedef struct fpt_change_options {
+    /**
+     * sizeof(fpt_change_options), set by fpt_change_options_init.
+     */
+    size_t struct_size;
+    /**
+     * Length, finite, >= 0: largest distance of old and new images of a curve at the same parameter. 0: 1e-7 x the diagonal of the box
+     * of the new surface.
+     */
+    double tolerance;
+    /**
+     * A value of fpt_replacement.
+     */
+    uint32_t replacement;
+    /**
+     * Must be 0.
+     */
+    uint32_t reserved;
+} fpt_change_options;
+
+/**
+ * How well a face was changed. 24 bytes, frozen.
+ */
+typedef struct fpt_change_summary {
+    /**
+     * Largest distance of old and new images of a curve at the same parameter: 0 where all are exact.
+     */
+    double deviation;
+    /**
+     * Largest distance of the old and the new surface at the places where they were compared.
+     */
+    double surface_deviation;
+    /**
+     * 1: the deviation is proven; 0: it is the largest at samples.
+     */
+    uint32_t proven;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} fpt_change_summary;
+
+/**
+ * A report in a few numbers. 48 bytes, frozen.
+ */
+typedef struct fpt_trim_summary {
+    /**
+     * The tolerance used, a length.
+     */
+    double tolerance;
+    /**
+     * Largest distance of a coedge's end and the next one's beginning, in space.
+     */
+    double largest_opening;
+    /**
+     * Largest distance of a pcurve's image and its edge, at 33 places and all corners of each coedge; not proven between them.
+     */
+    double largest_gap;
+    /**
+     * How far the segments that stand for curves may be off, a length; part of the tolerance unless a curve is very long.
+     */
+    double segment_error;
+    /**
+     * 1: coedges without a finding are proven to be disjoint; 0: the surface is a function, its speed is known from samples only.
+     */
+    uint32_t proven;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+    /**
+     * Number of findings; 0: the face is valid.
+     */
+    size_t finding_count;
+} fpt_trim_summary;
+
+/**
+ * Something that is wrong. 80 bytes, frozen. What a kind does not have is SIZE_MAX or 0.
+ */
+typedef struct fpt_trim_finding {
+    /**
+     * A value of fpt_finding_kind.
+     */
+    uint32_t kind;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+    /**
+     * Number of the loop.
+     */
+    size_t loop_index;
+    /**
+     * Number of the coedge in it.
+     */
+    size_t coedge;
+    /**
+     * Parameter of its pcurve.
+     */
+    double parameter;
+    /**
+     * The other loop of a contact.
+     */
+    size_t other_loop;
+    /**
+     * The other coedge.
+     */
+    size_t other_coedge;
+    /**
+     * The parameter there.
+     */
+    double other_parameter;
+    /**
+     * What the kind says.
+     */
+    double numbers[3];
+} fpt_trim_finding;
 
 /**
  * How intersections are computed. Fill it with fpt_hit_options_init, then change what matters. All zero after struct_size
@@ -1820,8 +2310,9 @@ FPT_MUST_USE
 fpt_status fpt_surface_prepare(const struct fpt_surface *surface);
 
 /**
- * Bytes that the library holds for the surface: the copies of its inputs, and the search index once it is built. What the
- * function of a callback keeps for itself is not counted.
+ * Bytes that the library holds for the surface: the copies of its inputs, and the search index once it is built (with more than
+ * 131,072 patches: the parts of it that queries have visited). What the function of a callback keeps for itself is not
+ * counted.
  * @since 0.1
  */
 FPT_MUST_USE
@@ -2995,6 +3486,672 @@ fpt_status fpt_weights_positive_form(size_t degree,
                                      const double *knots,
                                      const double *poles,
                                      struct fpt_curve **out);
+
+/**
+ * The linear function that maps from[0] to to[0] and from[1] to to[1], bit for bit. It is continued outside.
+ *
+ * @param from  increasing
+ * @param to    two different numbers; falling: the relation falls
+ * @param out   the handle; release it with fpt_relation_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_relation_linear(const double *from,
+                               const double *to,
+                               struct fpt_relation **out);
+
+/**
+ * From the parameter of a circular arc, written as a rational spline of degree 2 in a standard form, to its angle. Both ways agree to
+ * 1e-15 of the interval.
+ *
+ * @param arcs   0: half turns of 4 poles with shared ends (4 poles for a sweep of pi, 7 for 2 pi). n: n equal arcs with
+ *               double knots between them (of a half turn 2 arcs have 5 poles; of a full one 4 arcs have 9, 3 arcs have 7)
+ * @param sweep  angle of the whole arc, radians, more than 0, at most a full turn
+ * @param from   first and last parameter of the spline, increasing
+ * @param to     first and last angle, increasing, in any unit
+ * @param out    the handle; release it with fpt_relation_free
+ * @return FPT_INVALID_ARGUMENT also for a form that cannot make the sweep
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_relation_circle(uint32_t arcs,
+                               double sweep,
+                               const double *from,
+                               const double *to,
+                               struct fpt_relation **out);
+
+/**
+ * The piecewise linear relation through values at places.
+ *
+ * @param places  increasing
+ * @param values  all rising or all falling
+ * @param count   of each, at least 2
+ * @param out     the handle; release it with fpt_relation_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_relation_through(const double *places,
+                                const double *values,
+                                size_t count,
+                                struct fpt_relation **out);
+
+/**
+ * Relations one after the other along the domain: each begins where the one before ends, in domain and image, bit for bit.
+ *
+ * @param pieces  count handles; they may be freed before or after the result
+ * @param count   at least 1
+ * @param out     the handle; release it with fpt_relation_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_relation_piecewise(const struct fpt_relation *const *pieces,
+                                  size_t count,
+                                  struct fpt_relation **out);
+
+/**
+ * A relation by a function and its inverse. They are compared at 65 places here; that the function is monotone between them is the
+ * caller's word. What uses such a relation is measured, not proven.
+ *
+ * @param callback  the functions. After a failure nothing of it is kept and release is not called
+ * @param out       the handle; release it with fpt_relation_free
+ * @return FPT_INVALID_ARGUMENT for values that are not finite or not monotone, or an inverse that is off by more than 1e-9 of the domain
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_relation_from_callback(const struct fpt_relation_callback *callback,
+                                      struct fpt_relation **out);
+
+/**
+ * The inverse of a relation.
+ *
+ * @param out  the handle; release it with fpt_relation_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_relation_inverse(const struct fpt_relation *relation,
+                                struct fpt_relation **out);
+
+/**
+ * A relation and then another one, whose domain is the image of the first.
+ *
+ * @param out  the handle; release it with fpt_relation_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_relation_then(const struct fpt_relation *first,
+                             const struct fpt_relation *next,
+                             struct fpt_relation **out);
+
+/**
+ * Domain, and the values at its ends.
+ *
+ * @param out_from  first and last place
+ * @param out_to    the values there; falling when the relation falls
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_relation_domain(const struct fpt_relation *relation,
+                               double *out_from,
+                               double *out_to);
+
+/**
+ * The values at many places. Linear relations are continued outside of the domain, others give the value at its end.
+ *
+ * @param places  count numbers, finite
+ * @param out     count numbers
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_relation_apply(const struct fpt_relation *relation,
+                              const double *places,
+                              size_t count,
+                              double *out);
+
+/**
+ * Releases a relation. Transforms made of it stay. NULL is fine.
+ * @since 0.1
+ */
+void fpt_relation_free(struct fpt_relation *relation);
+
+/**
+ * The transform (u, v) -> (f(u), g(v)).
+ *
+ * @param u     f; may be freed before or after the result
+ * @param v     g, as well
+ * @param swap  1: (u, v) -> (g(v), f(u)); 0: not
+ * @param out   the handle; release it with fpt_transform_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_transform_new(const struct fpt_relation *u,
+                             const struct fpt_relation *v,
+                             uint32_t swap,
+                             struct fpt_transform **out);
+
+/**
+ * The inverse of a transform.
+ *
+ * @param out  the handle; release it with fpt_transform_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_transform_inverse(const struct fpt_transform *transform,
+                                 struct fpt_transform **out);
+
+/**
+ * A transform and then another one, whose domain is the image of the first.
+ *
+ * @param out  the handle; release it with fpt_transform_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_transform_then(const struct fpt_transform *first,
+                              const struct fpt_transform *next,
+                              struct fpt_transform **out);
+
+/**
+ * Domain and image of a transform, and whether it keeps the direction of loops.
+ *
+ * @param out_domain           u0, u1, v0, v1
+ * @param out_image            the same of the image
+ * @param out_keeps_direction  1: loops keep their direction; 0: they are turned
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_transform_domain(const struct fpt_transform *transform,
+                                double *out_domain,
+                                double *out_image,
+                                int32_t *out_keeps_direction);
+
+/**
+ * The images of many places.
+ *
+ * @param uv     2 * count numbers, finite
+ * @param out    2 * count numbers
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_transform_apply(const struct fpt_transform *transform,
+                               const double *uv,
+                               size_t count,
+                               double *out);
+
+/**
+ * Releases a transform. NULL is fine.
+ * @since 0.1
+ */
+void fpt_transform_free(struct fpt_transform *transform);
+
+/**
+ * A support of a surface, spline or function. The search index is shared with it.
+ *
+ * @param out  the handle; release it with fpt_support_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_support_new(const struct fpt_surface *surface,
+                           struct fpt_support **out);
+
+/**
+ * An elementary surface by its geometric parameters, on a rectangle of them.
+ *
+ * @param data  the inputs, copied
+ * @param out   the handle; release it with fpt_support_free
+ * @return FPT_INVALID_ARGUMENT names what is not allowed: also a domain in which the radius is negative, or that leaves the curve's
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_support_elementary(const struct fpt_elementary_data *data,
+                                  struct fpt_support **out);
+
+/**
+ * First and last parameters.
+ *
+ * @param out  u0, u1, v0, v1
+ * @since 0.1
+ */
+FPT_MUST_USE fpt_status fpt_support_domain(const struct fpt_support *support, double *out);
+
+/**
+ * The points at many places; a place outside of the domain is moved to its border first.
+ *
+ * @param uv     2 * count numbers, finite
+ * @param out    3 * count numbers; NaN where a function fails
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_support_evaluate(const struct fpt_support *support,
+                                const double *uv,
+                                size_t count,
+                                double *out);
+
+/**
+ * The support as a spline surface. That of an elementary surface is its exact NURBS form: angles become a parameter from 0 to 1, the
+ * other direction keeps its parameter.
+ *
+ * @param arcs  circle forms of u and v as fpt_relation_circle has them, not looked at where there is no angle; NULL: arcs of at most a
+ *              quarter turn
+ * @param out   the handle; release it with fpt_surface_free
+ * @return FPT_INVALID_ARGUMENT for a form that cannot make the sweep, FPT_UNSUPPORTED for a function
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_support_spline(const struct fpt_support *support,
+                              const uint32_t *arcs,
+                              struct fpt_surface **out);
+
+/**
+ * The transform from the parameters of an elementary surface to those of its NURBS form, exact at the ends.
+ *
+ * @param arcs  as for fpt_support_spline
+ * @param out   the handle; release it with fpt_transform_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_support_spline_transform(const struct fpt_support *support,
+                                        const uint32_t *arcs,
+                                        struct fpt_transform **out);
+
+/**
+ * The transform between two parametrisations of one surface, found by proven inversions: (s, t) = (f(u), g(v)) with monotone f and
+ * g is assumed and checked. Both have their seams at the same place. What it is used for is measured, not proven.
+ *
+ * @param tolerance  length, finite, >= 0: how far points of one may be from the other; 0: 1e-7 x the diagonal of the box
+ * @param out        the handle; release it with fpt_transform_free
+ * @return FPT_INVALID_ARGUMENT when the surfaces differ, their seams are elsewhere, or parameters do not follow each other
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_support_match(const struct fpt_support *from,
+                             const struct fpt_support *to,
+                             double tolerance,
+                             struct fpt_transform **out);
+
+/**
+ * As fpt_support_match, for many places at once. A record has the parameters on the target, the point there and its distance from the
+ * point of the place; lower_bound is 0. Places on a border of the domain give the border that belongs to it: no seam or pole point
+ * is on the wrong side.
+ *
+ * Flags: FPT_FOOT_NOT_PROVEN when an inversion was not proven, FPT_FOOT_NOT_ON_SHAPE when the distance is beyond the tolerance,
+ * FPT_FOOT_BAD_QUERY for a place outside of the domain.
+ *
+ * @param uv       2 * count numbers
+ * @param threads  0: all cores, 1: the calling thread only
+ * @param out      count records
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_support_match_many(const struct fpt_support *from,
+                                  const struct fpt_support *to,
+                                  double tolerance,
+                                  const double *uv,
+                                  size_t count,
+                                  uint32_t threads,
+                                  struct fpt_foot_point *out);
+
+/**
+ * Releases a support. NULL is fine.
+ * @since 0.1
+ */
+void fpt_support_free(struct fpt_support *support);
+
+/**
+ * Makes a face from its inputs. References are checked here; whether the loops are closed, directed and disjoint is what fpt_trim_report
+ * tells.
+ *
+ * @param data  the inputs, copied
+ * @param out   the handle; release it with fpt_trim_free
+ * @return FPT_INVALID_ARGUMENT names loop, coedge and edge
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_trim_new(const struct fpt_trim_data *data,
+                        struct fpt_trim **out);
+
+/**
+ * The whole surface as a face: one outer loop around its domain, with seam edges used twice and points at collapsed sides. The sides
+ * of a function have no edges.
+ *
+ * @param out  the handle; release it with fpt_trim_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_trim_whole(const struct fpt_support *support,
+                          struct fpt_trim **out);
+
+/**
+ * Releases a face. NULL is fine.
+ * @since 0.1
+ */
+void fpt_trim_free(struct fpt_trim *trim);
+
+/**
+ * The surface of a face.
+ *
+ * @param out  a handle of its own; release it with fpt_support_free
+ * @since 0.1
+ */
+FPT_MUST_USE fpt_status fpt_trim_support(const struct fpt_trim *trim, struct fpt_support **out);
+
+/**
+ * What a face consists of.
+ *
+ * @param out_edge_count  number of its edges
+ * @param out_loop_count  number of its loops
+ * @param out_flipped     1: its normal is opposite to Su x Sv; 0: it is that
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_trim_counts(const struct fpt_trim *trim,
+                           size_t *out_edge_count,
+                           size_t *out_loop_count,
+                           uint32_t *out_flipped);
+
+/**
+ * A loop of a face.
+ *
+ * @param index             less than the number of loops
+ * @param out_is_inner      0: outer, 1: inner
+ * @param out_coedge_count  number of its coedges
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_trim_loop(const struct fpt_trim *trim,
+                         size_t index,
+                         uint32_t *out_is_inner,
+                         size_t *out_coedge_count);
+
+/**
+ * A curve of a loop, as it was given but for its arrays: points, parameters and curve are NULL. Those of a polyline are got with
+ * fpt_trim_coedge_points, a spline with fpt_trim_coedge_curve.
+ *
+ * @param loop_index  less than the number of loops
+ * @param index       less than the loop's number of coedges
+ * @param out         the data
+ * @param out_domain  first and last parameter of the curve; NULL: not wanted
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_trim_coedge(const struct fpt_trim *trim,
+                           size_t loop_index,
+                           size_t index,
+                           struct fpt_coedge_data *out,
+                           double *out_domain);
+
+/**
+ * The points of a polyline.
+ *
+ * @param capacity        points that there is room for, at least point_count of fpt_trim_coedge
+ * @param out_points      u,v of each point
+ * @param out_parameters  parameter of each point; NULL: not wanted
+ * @return FPT_INVALID_ARGUMENT also for a curve that is none
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_trim_coedge_points(const struct fpt_trim *trim,
+                                  size_t loop_index,
+                                  size_t index,
+                                  size_t capacity,
+                                  double *out_points,
+                                  double *out_parameters);
+
+/**
+ * The spline of a coedge, with z = 0.
+ *
+ * @param out  the handle; release it with fpt_curve_free
+ * @return FPT_INVALID_ARGUMENT also for a curve that is none
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_trim_coedge_curve(const struct fpt_trim *trim,
+                                 size_t loop_index,
+                                 size_t index,
+                                 struct fpt_curve **out);
+
+/**
+ * Places of a coedge in the domain, and their points on the surface.
+ *
+ * @param shares      count numbers from 0 to 1: shares of the curve's domain, along the loop
+ * @param out_uv      2 * count numbers; NULL: not wanted
+ * @param out_points  3 * count numbers: the images; NULL: not wanted
+ * @param out_edge    3 * count numbers: the points of the edge at these shares, NaN without an edge; NULL: not wanted
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_trim_coedge_evaluate(const struct fpt_trim *trim,
+                                    size_t loop_index,
+                                    size_t index,
+                                    const double *shares,
+                                    size_t count,
+                                    double *out_uv,
+                                    double *out_points,
+                                    double *out_edge);
+
+/**
+ * An edge of a face.
+ *
+ * @param index         less than the number of edges
+ * @param out_curve     a handle of its own, or NULL for a point; release it with fpt_curve_free
+ * @param out_point     3 numbers: the point of a collapsed side; else where the edge begins
+ * @param out_reversed  1: the edge runs against its curve; 0: along it
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_trim_edge(const struct fpt_trim *trim,
+                         size_t index,
+                         struct fpt_curve **out_curve,
+                         double *out_point,
+                         uint32_t *out_reversed);
+
+/**
+ * Sets all options to their defaults.
+ *
+ * @param options      room for struct_size bytes
+ * @param struct_size  sizeof(fpt_change_options)
+ * @since 0.1
+ */
+void fpt_change_options_init(struct fpt_change_options *options, size_t struct_size);
+
+/**
+ * The face on another surface, which is its surface in the parameters of a transform. Isolines, polylines, and under linear transforms
+ * everything, keep their kind; other curves are replaced within the tolerance. A transform that turns directions turns every curve and
+ * loop, the sense of edges and that of the face: outer loops stay counter-clockwise, the normal in space stays. Edges stay.
+ *
+ * @param transform    from the domain of the face's surface to that of `support`
+ * @param support      the other surface
+ * @param options      NULL: the defaults
+ * @param out          the handle; release it with fpt_trim_free
+ * @param out_summary  how well; NULL: not wanted
+ * @return FPT_INVALID_ARGUMENT for domains that do not fit, or surfaces that differ by more than the tolerance, with the place;
+ *         FPT_UNSUPPORTED when a curve would take more than 1,048,576 vertices
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_trim_change(const struct fpt_trim *trim,
+                           const struct fpt_transform *transform,
+                           const struct fpt_support *support,
+                           const struct fpt_change_options *options,
+                           struct fpt_trim **out,
+                           struct fpt_change_summary *out_summary);
+
+/**
+ * The face with its surface in the parameters of a transform. Under a linear transform a spline stays one, exactly; else the new surface
+ * is a function of the old one, and nothing is proven.
+ *
+ * @param options      NULL: the defaults
+ * @param out          the handle; release it with fpt_trim_free
+ * @param out_summary  how well; NULL: not wanted
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_trim_reparametrise(const struct fpt_trim *trim,
+                                  const struct fpt_transform *transform,
+                                  const struct fpt_change_options *options,
+                                  struct fpt_trim **out,
+                                  struct fpt_change_summary *out_summary);
+
+/**
+ * The face of an elementary surface on the exact NURBS form of it.
+ *
+ * @param arcs         circle forms of u and v, as for fpt_support_spline; NULL: arcs of at most a quarter turn
+ * @param options      NULL: the defaults
+ * @param out          the handle; release it with fpt_trim_free
+ * @param out_summary  how well; NULL: not wanted
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_trim_to_nurbs(const struct fpt_trim *trim,
+                             const uint32_t *arcs,
+                             const struct fpt_change_options *options,
+                             struct fpt_trim **out,
+                             struct fpt_change_summary *out_summary);
+
+/**
+ * The face of a NURBS form on the elementary surface that it is the form of; knots may have been refined and degrees raised.
+ *
+ * @param support      an elementary surface
+ * @param arcs         the circle forms that the surface of the face has, as for fpt_support_spline
+ * @param options      NULL: the defaults
+ * @param out          the handle; release it with fpt_trim_free
+ * @param out_summary  how well; NULL: not wanted
+ * @return FPT_INVALID_ARGUMENT also when the surface of the face is not that form, with a place where it differs
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_trim_to_elementary(const struct fpt_trim *trim,
+                                  const struct fpt_support *support,
+                                  const uint32_t *arcs,
+                                  const struct fpt_change_options *options,
+                                  struct fpt_trim **out,
+                                  struct fpt_change_summary *out_summary);
+
+/**
+ * The face on the same surface in any other parameters, found by proven inversions along its curves, which become polylines. On seams and
+ * collapsed edges of the new surface the side is told by where the curve comes from: a loop stays one closed loop. The deviation is
+ * measured, not proven.
+ *
+ * @param support      the same surface in other parameters
+ * @param options      the tolerance counts; NULL: the defaults
+ * @param out          the handle; release it with fpt_trim_free
+ * @param out_summary  how well; NULL: not wanted
+ * @return FPT_UNSUPPORTED for a loop that crosses a seam of the new surface: it would have to be cut there
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_trim_follow(const struct fpt_trim *trim,
+                           const struct fpt_support *support,
+                           const struct fpt_change_options *options,
+                           struct fpt_trim **out,
+                           struct fpt_change_summary *out_summary);
+
+/**
+ * Two faces whose domains follow each other made one face. What their coedges have in common on the border is taken out; what is left
+ * is joined to loops again. Edges that end up inside are dropped.
+ *
+ * @param first      the face whose domain ends where that of the other begins
+ * @param second     the other face, with the same normal
+ * @param direction  0: the domains follow each other in u; 1: in v
+ * @param support    the surface of both: its domain is the union
+ * @param options    the tolerance counts; NULL: the defaults
+ * @param out        the handle; release it with fpt_trim_free
+ * @return FPT_INVALID_ARGUMENT for domains that do not follow each other bit for bit, a surface that differs, or loops that do not close
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_trim_merge(const struct fpt_trim *first,
+                          const struct fpt_trim *second,
+                          uint32_t direction,
+                          const struct fpt_support *support,
+                          const struct fpt_change_options *options,
+                          struct fpt_trim **out);
+
+/**
+ * Checks a face: open loops, wrong directions, crossing and touching curves, gaps between curves and edges, curves outside of the domain,
+ * containment of loops. Cost: milliseconds.
+ *
+ * @param tolerance  length, finite, >= 0; 0: 1e-7 x the diagonal of the surface's box
+ * @param out        the report; release it with fpt_trim_report_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_trim_report_new(const struct fpt_trim *trim,
+                               double tolerance,
+                               struct fpt_trim_report **out);
+
+/**
+ * The report in a few numbers.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_trim_report_summary(const struct fpt_trim_report *report,
+                                   struct fpt_trim_summary *out);
+
+/**
+ * One thing that is wrong.
+ *
+ * @param index  less than finding_count of the summary
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_trim_report_get(const struct fpt_trim_report *report,
+                               size_t index,
+                               struct fpt_trim_finding *out);
+
+/**
+ * Releases a report. NULL is fine.
+ * @since 0.1
+ */
+void fpt_trim_report_free(struct fpt_trim_report *report);
+
+/**
+ * The face as JSON text (UTF-8): every number comes back with the same bits. Ask with a capacity of 0 for the length.
+ *
+ * @param capacity    0, or bytes of room: at least the length and a closing NUL
+ * @param out         the text; may be NULL when capacity is 0
+ * @param out_length  bytes of the text, the closing NUL not counted
+ * @return FPT_UNSUPPORTED for surfaces and curves given by functions
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_trim_to_json(const struct fpt_trim *trim,
+                            size_t capacity,
+                            char *out,
+                            size_t *out_length);
+
+/**
+ * The face of a JSON text. It goes through the checks of fpt_trim_new.
+ *
+ * @param text    length bytes of UTF-8; a closing NUL is not needed
+ * @param out     the handle; release it with fpt_trim_free
+ * @return FPT_INVALID_ARGUMENT names line and column of what is no JSON, or the path of an entry that is missing or not allowed
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_trim_from_json(const char *text,
+                              size_t length,
+                              struct fpt_trim **out);
+
+/**
+ * A picture of faces as SVG text (UTF-8), one column each: the domain with its loops, and the face in space without perspective. Ask
+ * with a capacity of 0 for the length.
+ *
+ * @param trims       count handles
+ * @param titles      count texts (UTF-8) that end with a NUL; NULL: none
+ * @param count       1 to 16
+ * @param view        3 numbers: the direction in which one looks; NULL: the usual one
+ * @param capacity    0, or bytes of room: at least the length and a closing NUL
+ * @param out         the text; may be NULL when capacity is 0
+ * @param out_length  bytes of the text, the closing NUL not counted
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_trim_picture(const struct fpt_trim *const *trims,
+                            const char *const *titles,
+                            size_t count,
+                            const double *view,
+                            size_t capacity,
+                            char *out,
+                            size_t *out_length);
 
 /**
  * Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.

@@ -1097,6 +1097,86 @@ inline curve positive_form(std::size_t degree, span<const double> knots, span<co
     return curve(out);
 }
 
+/** u,v of a place in a domain. */
+using parameters = std::array<double, 2>;
+
+/** A monotone function of one parameter with its inverse: owner of an fpt_relation. */
+class relation {
+public:
+    /** Takes a handle over. */
+    explicit relation(fpt_relation *handle) noexcept : handle_(handle) {}
+
+    /** As fpt_relation_linear. */
+    static relation linear(const parameters &from, const parameters &to) {
+        fpt_relation *out = nullptr;
+        check(fpt_relation_linear(from.data(), to.data(), &out));
+        return relation(out);
+    }
+    /** As fpt_relation_circle. */
+    static relation circle(std::uint32_t arcs, double sweep, const parameters &from, const parameters &to) {
+        fpt_relation *out = nullptr;
+        check(fpt_relation_circle(arcs, sweep, from.data(), to.data(), &out));
+        return relation(out);
+    }
+    /** As fpt_relation_through. */
+    static relation through(span<const double> places, span<const double> values) {
+        detail::require(places.size() == values.size(), "values: need one per place");
+        fpt_relation *out = nullptr;
+        check(fpt_relation_through(places.data(), values.data(), places.size(), &out));
+        return relation(out);
+    }
+    /** As fpt_relation_piecewise. */
+    static relation piecewise(span<const fpt_relation *const> pieces) {
+        fpt_relation *out = nullptr;
+        check(fpt_relation_piecewise(pieces.data(), pieces.size(), &out));
+        return relation(out);
+    }
+    /** A function and its inverse; what they throw is a value that is no number. */
+    static relation from_function(std::function<double(double)> forward, std::function<double(double)> backward,
+                                  const parameters &domain) {
+        using pair = std::pair<std::function<double(double)>, std::function<double(double)>>;
+        auto both = std::make_unique<pair>(std::move(forward), std::move(backward));
+        fpt_relation_callback data{};
+        data.struct_size = sizeof data;
+        data.forward = [](void *user, double x) { return valued(static_cast<pair *>(user)->first, x); };
+        data.backward = [](void *user, double y) { return valued(static_cast<pair *>(user)->second, y); };
+        data.user = both.get();
+        data.release = detail::released<pair>;
+        data.domain[0] = domain[0];
+        data.domain[1] = domain[1];
+        fpt_relation *out = nullptr;
+        check(fpt_relation_from_callback(&data, &out));
+        both.release();
+        return relation(out);
+    }
+
+    const fpt_relation *get() const noexcept { return handle_.get(); }
+    fpt_relation *release() noexcept { return handle_.release(); }
+
+    relation inverse() const {
+        fpt_relation *out = nullptr;
+        check(fpt_relation_inverse(get(), &out));
+        return relation(out);
+    }
+    relation then(const relation &next) const {
+        fpt_relation *out = nullptr;
+        check(fpt_relation_then(get(), next.get(), &out));
+        return relation(out);
+    }
+    /** First and last place, and the values there. */
+    std::pair<parameters, parameters> domain() const {
+        std::pair<parameters, parameters> out{};
+        check(fpt_relation_domain(get(), out.first.data(), out.second.data()));
+        return out;
+    }
+    double operator()(double place) const {
+        double out = 0;
+        check(fpt_relation_apply(get(), &place, 1, &out));
+        return out;
+    }
+    std::vector<double> operator()(span<const double> places) const {
+        std::vector<double> out(places.size());
+        check(fpt_relation_apply(get(), places.data(), places.size(), out.data()));
 /** fpt_hit_options that begin as the defaults. */
 struct hit_options : fpt_hit_options {
     hit_options() noexcept : fpt_hit_options() { fpt_hit_options_init(this, sizeof(fpt_hit_options)); }
@@ -1264,6 +1344,334 @@ public:
     }
 
 private:
+    struct deleter {
+        void operator()(fpt_relation *handle) const noexcept { fpt_relation_free(handle); }
+    };
+
+    static double valued(const std::function<double(double)> &function, double x) noexcept {
+        try {
+            return function(x);
+        } catch (...) {
+            return std::numeric_limits<double>::quiet_NaN();
+        }
+    }
+
+    std::unique_ptr<fpt_relation, deleter> handle_;
+};
+
+/** A change of both parameters: owner of an fpt_transform. */
+class transform {
+public:
+    /** Takes a handle over. */
+    explicit transform(fpt_transform *handle) noexcept : handle_(handle) {}
+    /** As fpt_transform_new. */
+    transform(const relation &u, const relation &v, bool swap = false) {
+        fpt_transform *out = nullptr;
+        check(fpt_transform_new(u.get(), v.get(), swap, &out));
+        handle_.reset(out);
+    }
+
+    const fpt_transform *get() const noexcept { return handle_.get(); }
+    fpt_transform *release() noexcept { return handle_.release(); }
+
+    transform inverse() const {
+        fpt_transform *out = nullptr;
+        check(fpt_transform_inverse(get(), &out));
+        return transform(out);
+    }
+    transform then(const transform &next) const {
+        fpt_transform *out = nullptr;
+        check(fpt_transform_then(get(), next.get(), &out));
+        return transform(out);
+    }
+    /** u0, u1, v0, v1. */
+    std::array<double, 4> domain() const { return bounds().domain; }
+    std::array<double, 4> image() const { return bounds().image; }
+    /** Whether loops keep their direction. */
+    bool keeps_direction() const { return bounds().keeps != 0; }
+    parameters operator()(const parameters &uv) const {
+        parameters out{};
+        check(fpt_transform_apply(get(), uv.data(), 1, out.data()));
+        return out;
+    }
+
+private:
+    struct deleter {
+        void operator()(fpt_transform *handle) const noexcept { fpt_transform_free(handle); }
+    };
+    struct all {
+        std::array<double, 4> domain, image;
+        std::int32_t keeps;
+    };
+
+    all bounds() const {
+        all out{};
+        check(fpt_transform_domain(get(), out.domain.data(), out.image.data(), &out.keeps));
+        return out;
+    }
+
+    std::unique_ptr<fpt_transform, deleter> handle_;
+};
+
+/** Circle forms of u and v, as fpt_support_spline has them. */
+using circle_forms = std::array<std::uint32_t, 2>;
+
+/** fpt_elementary_data with the coordinate axes. */
+struct elementary_data : fpt_elementary_data {
+    explicit elementary_data(fpt_elementary_kind kind, const std::array<double, 4> &domain) noexcept
+        : fpt_elementary_data() {
+        this->struct_size = sizeof(fpt_elementary_data);
+        this->kind = kind;
+        for (int k = 0; k < 4; k++) this->domain[k] = domain[k];
+        this->x[0] = this->y[1] = this->z[2] = 1;
+    }
+};
+
+/** The surface under a face: owner of an fpt_support. */
+class support {
+public:
+    /** Takes a handle over. */
+    explicit support(fpt_support *handle) noexcept : handle_(handle) {}
+    explicit support(const surface &shape) {
+        fpt_support *out = nullptr;
+        check(fpt_support_new(shape.get(), &out));
+        handle_.reset(out);
+    }
+    explicit support(const fpt_elementary_data &data) {
+        fpt_support *out = nullptr;
+        check(fpt_support_elementary(&data, &out));
+        handle_.reset(out);
+    }
+
+    const fpt_support *get() const noexcept { return handle_.get(); }
+    fpt_support *release() noexcept { return handle_.release(); }
+
+    std::array<double, 4> domain() const { return detail::array<4>(fpt_support_domain, get()); }
+    point evaluate(const parameters &uv) const {
+        point out{};
+        check(fpt_support_evaluate(get(), uv.data(), 1, out.data()));
+        return out;
+    }
+    /** The NURBS form; with no forms arcs of at most a quarter turn. */
+    surface spline() const { return spline_in(nullptr); }
+    surface spline(const circle_forms &arcs) const { return spline_in(arcs.data()); }
+    transform spline_transform() const { return transform_in(nullptr); }
+    transform spline_transform(const circle_forms &arcs) const { return transform_in(arcs.data()); }
+    /** As fpt_support_match. */
+    transform match(const support &to, double tolerance = 0) const {
+        fpt_transform *out = nullptr;
+        check(fpt_support_match(get(), to.get(), tolerance, &out));
+        return transform(out);
+    }
+    /** As fpt_support_match_many: u,v of each place. */
+    std::vector<fpt_foot_point> match(const support &to, span<const double> uv, double tolerance = 0,
+                                      std::uint32_t threads = 0) const {
+        detail::require(uv.size() % 2 == 0, "uv: the length is odd");
+        std::vector<fpt_foot_point> out(uv.size() / 2);
+        check(fpt_support_match_many(get(), to.get(), tolerance, uv.data(), out.size(), threads, out.data()));
+        return out;
+    }
+
+private:
+    struct deleter {
+        void operator()(fpt_support *handle) const noexcept { fpt_support_free(handle); }
+    };
+
+    surface spline_in(const std::uint32_t *arcs) const {
+        fpt_surface *out = nullptr;
+        check(fpt_support_spline(get(), arcs, &out));
+        return surface(out);
+    }
+    transform transform_in(const std::uint32_t *arcs) const {
+        fpt_transform *out = nullptr;
+        check(fpt_support_spline_transform(get(), arcs, &out));
+        return transform(out);
+    }
+
+    std::unique_ptr<fpt_support, deleter> handle_;
+};
+
+/** fpt_change_options that begin as the defaults. */
+struct change_options : fpt_change_options {
+    change_options() noexcept : fpt_change_options() {
+        fpt_change_options_init(this, sizeof(fpt_change_options));
+    }
+};
+
+/** What fpt_trim_report_new finds. */
+struct trim_report {
+    fpt_trim_summary summary;
+    std::vector<fpt_trim_finding> findings;
+};
+
+/** A trimmed surface: owner of an fpt_trim. Calls that change a face write how well to `summary` when it is given. */
+class trimmed_surface {
+public:
+    /** Takes a handle over. */
+    explicit trimmed_surface(fpt_trim *handle) noexcept : handle_(handle) {}
+    explicit trimmed_surface(const fpt_trim_data &data) {
+        fpt_trim *out = nullptr;
+        check(fpt_trim_new(&data, &out));
+        handle_.reset(out);
+    }
+    /** As fpt_trim_whole. */
+    explicit trimmed_surface(const support &shape) {
+        fpt_trim *out = nullptr;
+        check(fpt_trim_whole(shape.get(), &out));
+        handle_.reset(out);
+    }
+    /** As fpt_trim_from_json. */
+    static trimmed_surface from_json(const std::string &text) {
+        fpt_trim *out = nullptr;
+        check(fpt_trim_from_json(text.data(), text.size(), &out));
+        return trimmed_surface(out);
+    }
+
+    const fpt_trim *get() const noexcept { return handle_.get(); }
+    fpt_trim *release() noexcept { return handle_.release(); }
+
+    footpoint::support support() const {
+        fpt_support *out = nullptr;
+        check(fpt_trim_support(get(), &out));
+        return footpoint::support(out);
+    }
+    std::size_t edge_count() const { return counts().edges; }
+    std::size_t loop_count() const { return counts().loops; }
+    bool is_flipped() const { return counts().flipped != 0; }
+    std::size_t coedge_count(std::size_t loop) const { return loop_of(loop).second; }
+    bool is_inner(std::size_t loop) const { return loop_of(loop).first != 0; }
+    /** As fpt_trim_coedge. */
+    fpt_coedge_data coedge(std::size_t loop, std::size_t index) const {
+        fpt_coedge_data out;
+        check(fpt_trim_coedge(get(), loop, index, &out, nullptr));
+        return out;
+    }
+    /** u,v of the points of a polyline. */
+    std::vector<double> points(std::size_t loop, std::size_t index) const {
+        std::vector<double> out(2 * coedge(loop, index).point_count);
+        check(fpt_trim_coedge_points(get(), loop, index, out.size() / 2, out.data(), nullptr));
+        return out;
+    }
+    /** The spline of a coedge. */
+    curve pcurve(std::size_t loop, std::size_t index) const {
+        fpt_curve *out = nullptr;
+        check(fpt_trim_coedge_curve(get(), loop, index, &out));
+        return curve(out);
+    }
+    /** The image of a coedge at a share of its domain. */
+    point evaluate(std::size_t loop, std::size_t index, double share) const {
+        point out{};
+        check(fpt_trim_coedge_evaluate(get(), loop, index, &share, 1, nullptr, out.data(), nullptr));
+        return out;
+    }
+    /** Where an edge begins, or the point that it is. */
+    point edge_point(std::size_t index) const {
+        fpt_curve *handle = nullptr;
+        std::uint32_t reversed = 0;
+        point out{};
+        check(fpt_trim_edge(get(), index, &handle, out.data(), &reversed));
+        fpt_curve_free(handle);
+        return out;
+    }
+
+    trimmed_surface change(const transform &by, const footpoint::support &to,
+                           const fpt_change_options &options = change_options(),
+                           fpt_change_summary *summary = nullptr) const {
+        return made([&](fpt_trim **out) {
+            return fpt_trim_change(get(), by.get(), to.get(), &options, out, summary);
+        });
+    }
+    trimmed_surface reparametrise(const transform &by, const fpt_change_options &options = change_options(),
+                                  fpt_change_summary *summary = nullptr) const {
+        return made([&](fpt_trim **out) {
+            return fpt_trim_reparametrise(get(), by.get(), &options, out, summary);
+        });
+    }
+    trimmed_surface to_nurbs(const circle_forms &arcs, const fpt_change_options &options = change_options(),
+                             fpt_change_summary *summary = nullptr) const {
+        return made([&](fpt_trim **out) {
+            return fpt_trim_to_nurbs(get(), arcs.data(), &options, out, summary);
+        });
+    }
+    trimmed_surface to_elementary(const footpoint::support &to, const circle_forms &arcs,
+                                  const fpt_change_options &options = change_options(),
+                                  fpt_change_summary *summary = nullptr) const {
+        return made([&](fpt_trim **out) {
+            return fpt_trim_to_elementary(get(), to.get(), arcs.data(), &options, out, summary);
+        });
+    }
+    trimmed_surface follow(const footpoint::support &to, const fpt_change_options &options = change_options(),
+                           fpt_change_summary *summary = nullptr) const {
+        return made([&](fpt_trim **out) { return fpt_trim_follow(get(), to.get(), &options, out, summary); });
+    }
+    /** direction: 0 in u, 1 in v. */
+    trimmed_surface merge(const trimmed_surface &next, std::uint32_t direction, const footpoint::support &whole,
+                          const fpt_change_options &options = change_options()) const {
+        return made([&](fpt_trim **out) {
+            return fpt_trim_merge(get(), next.get(), direction, whole.get(), &options, out);
+        });
+    }
+
+    trim_report report(double tolerance = 0) const {
+        fpt_trim_report *handle = nullptr;
+        check(fpt_trim_report_new(get(), tolerance, &handle));
+        const std::unique_ptr<fpt_trim_report, void (*)(fpt_trim_report *)> owner(handle, fpt_trim_report_free);
+        trim_report out{};
+        check(fpt_trim_report_summary(handle, &out.summary));
+        out.findings.resize(out.summary.finding_count);
+        for (std::size_t i = 0; i < out.findings.size(); i++) check(fpt_trim_report_get(handle, i, &out.findings[i]));
+        return out;
+    }
+    std::string json() const {
+        return text([&](std::size_t capacity, char *out, std::size_t *length) {
+            return fpt_trim_to_json(get(), capacity, out, length);
+        });
+    }
+    /** A picture of this face alone, as SVG text. */
+    std::string picture(const std::string &title = std::string()) const {
+        const fpt_trim *const list[] = {get()};
+        const char *const titles[] = {title.c_str()};
+        return text([&](std::size_t capacity, char *out, std::size_t *length) {
+            return fpt_trim_picture(list, titles, 1, nullptr, capacity, out, length);
+        });
+    }
+
+private:
+    struct deleter {
+        void operator()(fpt_trim *handle) const noexcept { fpt_trim_free(handle); }
+    };
+    struct numbers {
+        std::size_t edges, loops;
+        std::uint32_t flipped;
+    };
+
+    numbers counts() const {
+        numbers out{};
+        check(fpt_trim_counts(get(), &out.edges, &out.loops, &out.flipped));
+        return out;
+    }
+    std::pair<std::uint32_t, std::size_t> loop_of(std::size_t index) const {
+        std::pair<std::uint32_t, std::size_t> out{};
+        check(fpt_trim_loop(get(), index, &out.first, &out.second));
+        return out;
+    }
+    template <class Call>
+    static trimmed_surface made(Call call) {
+        fpt_trim *out = nullptr;
+        check(call(&out));
+        return trimmed_surface(out);
+    }
+    template <class Call>
+    static std::string text(Call call) {
+        std::size_t length = 0;
+        check(call(0, nullptr, &length));
+        std::string out(length + 1, '\0');
+        check(call(out.size(), out.data(), &length));
+        out.resize(length);
+        return out;
+    }
+
+    std::unique_ptr<fpt_trim, deleter> handle_;
     static std::size_t count_of(span<const double> origins, span<const double> directions) {
         detail::require(origins.size() == directions.size() && origins.size() % 3 == 0,
                         "directions: need x,y,z for each origin");

@@ -28,9 +28,28 @@ const STRETCH: f64 = 18_446_744_073_709_551_616.0;
 pub fn values(knots: &Knots, span: usize, u: f64, out: &mut [f64]) {
     let degree = knots.degree();
     let around = &knots.values()[span + 1 - degree..=span + degree];
+    match degree {
+        1 => grow::<1>(around, u, out),
+        2 => grow::<2>(around, u, out),
+        3 => grow::<3>(around, u, out),
+        4 => grow::<4>(around, u, out),
+        5 => grow::<5>(around, u, out),
+        _ => {
+            out[0] = 1.0;
+            for grown in 1..=degree {
+                raise(around, degree, grown, u, out);
+            }
+        }
+    }
+}
+
+/// The whole triangle for a degree that the compiler knows: the same steps without loops.
+#[inline(always)]
+fn grow<const DEGREE: usize>(around: &[f64], u: f64, out: &mut [f64]) {
+    let (around, out) = (&around[..2 * DEGREE], &mut out[..=DEGREE]);
     out[0] = 1.0;
-    for grown in 1..=degree {
-        raise(around, degree, grown, u, out);
+    for grown in 1..=DEGREE {
+        raise(around, DEGREE, grown, u, out);
     }
 }
 
@@ -67,7 +86,7 @@ pub fn derivatives(knots: &Knots, span: usize, u: f64, count: usize, out: &mut [
 
 /// Replaces the row of degree `grown - 1` by the row of degree `grown`. `around` holds the knots
 /// `u_{i+1-p} .. u_{i+p}`, so that `u_{i+1+r}` is `around[p + r]`.
-#[inline]
+#[inline(always)]
 fn raise(around: &[f64], degree: usize, grown: usize, u: f64, row: &mut [f64]) {
     let ends = &around[degree..degree + grown];
     let starts = &around[degree - grown..degree];

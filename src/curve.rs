@@ -234,11 +234,12 @@ pub(crate) fn add_scaled(sum: &mut [f64; 4], factor: f64, pole: &[f64; 3], refer
 /// Index of the largest value, the first of equals.
 #[inline]
 pub(crate) fn largest(values: &[f64]) -> usize {
-    let mut best = 0;
-    for (index, value) in values.iter().enumerate() {
-        if *value > values[best] {
-            best = index;
-        }
+    let (mut best, mut greatest) = (0, values[0]);
+    for (index, &value) in values.iter().enumerate() {
+        // Two selections, no branch: which one is greatest cannot be foretold.
+        let is_greater = value > greatest;
+        best = if is_greater { index } else { best };
+        greatest = if is_greater { value } else { greatest };
     }
     best
 }

@@ -13,6 +13,8 @@
 //!                   -> normal, unwrap                          normals.rs, path.rs
 //!                   -> scene                                   scene.rs, scene_query.rs
 //!                   -> weights                                 weights.rs, weights_records.rs, weights_report.rs, weights_edit.rs
+//!                   -> transform, trim                         transform.rs, support.rs, trim.rs, trim_parts.rs,
+//!                                                              trim_change.rs, trim_report.rs
 //!                   -> intersect                               intersect_records.rs, intersect.rs, intersect_rays.rs
 //!          <- fpt_status, text of a failure for fpt_last_error
 //! ```
@@ -44,6 +46,12 @@ mod weights_records;
 mod weights_report;
 mod weights;
 mod weights_edit;
+mod transform;
+mod support;
+mod trim;
+mod trim_parts;
+mod trim_change;
+mod trim_report;
 mod intersect_records;
 mod intersect;
 mod intersect_rays;

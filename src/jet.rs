@@ -169,6 +169,9 @@ pub fn pole_distance([x, y, z, w]: &Lane, q: Vector) -> f64 {
 /// Degrees whose loops have fixed lengths.
 const FIXED: usize = 5;
 
+/// Degrees up to which the number of columns of a patch is known to the compiler.
+const EXACT: usize = 9;
+
 /// Degrees whose arrays are half as long as those of the highest.
 const MIDDLE: usize = 15;
 
@@ -184,6 +187,10 @@ fn bernstein<const N: usize>(n: usize, s: f64) -> Basis<N> {
         4 => widened::<4, N>(fixed_basis(s)),
         5 => widened::<5, N>(fixed_basis(s)),
         6 => widened::<6, N>(fixed_basis(s)),
+        7 if N >= 7 => widened::<7, N>(power_basis(s)),
+        8 if N >= 8 => widened::<8, N>(power_basis(s)),
+        9 if N >= 9 => widened::<9, N>(power_basis(s)),
+        10 if N >= 10 => widened::<10, N>(power_basis(s)),
         _ => {
             let mut out = [[0.0; N]; 3];
             if N <= FIXED + 1 {
@@ -241,6 +248,14 @@ fn fixed_basis<const M: usize>(s: f64) -> Basis<M> {
     [row, first, second]
 }
 
+/// As [`basis`], for a degree `M - 1` that the compiler knows: the same steps without loops.
+#[inline(always)]
+fn power_basis<const M: usize>(s: f64) -> Basis<M> {
+    let [mut values, mut first, mut second] = [[0.0; M]; 3];
+    basis::<M>(M - 1, s, &mut values, &mut first, &mut second);
+    [values, first, second]
+}
+
 #[inline(always)]
 fn vector<V: Lanes<4>>(lane: V) -> Vector {
     let [x, y, z, _] = lane.array();
@@ -281,6 +296,10 @@ impl Kernel for SegmentJet<'_> {
             3 => self.sums::<S, 4>(4),
             4 => self.sums::<S, 5>(5),
             FIXED => self.sums::<S, 6>(6),
+            6 => self.sums::<S, 7>(7),
+            7 => self.sums::<S, 8>(8),
+            8 => self.sums::<S, 9>(9),
+            9 => self.sums::<S, 10>(10),
             p @ ..=MIDDLE => self.sums::<S, { MIDDLE + 1 }>(p + 1),
             p => self.sums::<S, { MAX_DEGREE + 1 }>(p + 1),
         };
@@ -323,7 +342,7 @@ impl PatchJet<'_> {
 
     #[inline(always)]
     fn sums_of<S: Simd, const N: usize, const ROWS: usize>(&self) -> [S::F4; 6] {
-        let columns = if N > FIXED + 1 { self.0.degree.t + 1 } else { N };
+        let columns = if N > EXACT + 1 { self.0.degree.t + 1 } else { N };
         let across = bernstein::<ROWS>(self.0.degree.s + 1, self.1[0]);
         // Sums over the rows, one a column; then sums over the columns.
         let mut partial = [[S::F4::splat(0.0); N]; 3];
@@ -363,6 +382,10 @@ impl Kernel for PatchJet<'_> {
             3 => self.sums::<S, 4>(),
             4 => self.sums::<S, 5>(),
             FIXED => self.sums::<S, 6>(),
+            6 => self.sums::<S, 7>(),
+            7 => self.sums::<S, 8>(),
+            8 => self.sums::<S, 9>(),
+            9 => self.sums::<S, 10>(),
             ..=MIDDLE => self.sums::<S, { MIDDLE + 1 }>(),
             _ => self.sums::<S, { MAX_DEGREE + 1 }>(),
         };

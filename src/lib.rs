@@ -5,6 +5,8 @@
 
 pub mod error;
 
+pub mod portable;
+
 pub mod knots;
 
 pub mod basis;
@@ -52,6 +54,18 @@ pub mod callback;
 pub mod batch;
 
 pub mod weights;
+
+pub mod operate;
+
+pub mod fit;
+
+pub mod elementary;
+
+pub mod transform;
+
+pub mod pcurve;
+
+pub mod trim;
 
 pub mod intersect;
 

@@ -63,7 +63,7 @@ impl Surface {
     }
 
     /// A surface of parts that have been checked.
-    fn from_parts(
+    pub(crate) fn from_parts(
         knots_u: Knots,
         knots_v: Knots,
         poles: Box<[[f64; 3]]>,

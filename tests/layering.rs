@@ -95,8 +95,8 @@ fn a_file_uses_only_modules_listed_before_its_own() {
     assert!(order.len() >= 10, "{order:?}");
     for (module, code) in files.iter().filter(|(module, _)| !module.is_empty()) {
         let own = place(&module[0]).unwrap_or_else(|| panic!("{module:?} is not in lib.rs"));
-        let from_root = ["super::", "super::super::"][module.len().min(2) - 1];
-        for name in first_names(code, "crate::").union(&first_names(code, from_root)) {
+        let from_root = "super::".repeat(module.len());
+        for name in first_names(code, "crate::").union(&first_names(code, &from_root)) {
             // A submodule may name its own parent.
             let limit = if module.len() > 1 { own + 1 } else { own };
             let there = place(name);

@@ -143,6 +143,12 @@ def read_growth(path):
     return rows
 
 
+def read_scenes(path):
+    """(name, scene, nearest member alone, with a hint, worst, wrong, not proven), times in microseconds."""
+    lines = [line.split(",") for line in path.read_text().splitlines()] if path.exists() else []
+    return [(words[1], *map(float, words[2:])) for words in lines]
+
+
 class Figures:
     def __init__(self, out):
         raw = pathlib.Path(out) / "raw"
@@ -150,6 +156,7 @@ class Figures:
         self.about = json.loads((raw / "run.json").read_text())
         self.latency = read_latency(raw / "latency.csv")
         self.growth = read_growth(raw / "growth.csv")
+        self.scenes = read_scenes(raw / "scene.csv")
         self.cache = {}
 
     def duel(self, call, prefix):

@@ -14,7 +14,7 @@ def main():
     out = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "bench-out")
     figures = Figures(out)
     lines = tables.header(figures) + goals.goals(figures) + tables.comparison(figures) + tables.classes(figures)
-    lines += tables.latency(figures) + tables.growth(figures)
+    lines += tables.latency(figures) + tables.growth(figures) + tables.scenes(figures)
     (out / "bench.md").write_text("\n".join(lines))
     plots.draw(figures, out)
     print("\n".join(lines))

@@ -89,7 +89,9 @@ def main():
     about = machine() | {"cases": settings.cases, "queries": queries, "quick": settings.quick, "left_out": [], "runs": []}
     quick = ["quick"] if settings.quick else []
     own = [("latency", [build / "bench_latency", raw / "latency.csv", *folders]),
-           ("growth", [build / "bench_growth", raw / "growth.csv", *quick])]
+           ("growth", [build / "bench_growth", raw / "growth.csv", *quick]),
+           ("scene", ["cargo", "bench", "--quiet", "--locked", "--bench", "scene", "--", f"csv={(raw / 'scene.csv').resolve()}",
+                      *(["queries=500"] if settings.quick else [])])]
     for key, command in own:
         if settings.only in key:
             about["runs"].append(run(key, command))

@@ -167,3 +167,13 @@ def growth(figures):
     lines += ["Threads of a busy machine wait for cores; the last column is what the processor time would allow on an idle one.", ""]
     return lines + table(["100 pieces, one large batch", "threads", "per query", "times faster than one", "processor time of all threads per query",
                           "at most, were all cores free"], rows)
+
+
+def scenes(figures):
+    if not figures.scenes:
+        return []
+    lines = ["## Scenes", "", "1,000 placed real surfaces of diagonal 1, turned at random, on grids of 1.3 (apart), 0.7 (a part), 0.4 (overlapping) and "
+             "0.25 (a heap) diagonals; medians of single calls beside the nearest member asked alone.", ""]
+    rows = [[name, show(scene), show(alone), ratio(scene / alone), show(hinted), show(worst), f"{wrong:.0f}", f"{unproven:.0f}"]
+            for name, scene, alone, hinted, worst, wrong, unproven in figures.scenes]
+    return lines + table(["arrangement", "scene", "member alone", "ratio", "with a hint", "worst", "wrong (of 200 checked)", "not proven"], rows)

@@ -7,7 +7,7 @@ weak answer is no error but a record whose flags say so.
 Every call releases the GIL and uses all cores unless `threads` says otherwise; Ctrl-C ends a query.
 """
 
-from . import convert, intersect, weights
+from . import convert, intersect, trims, weights
 from ._feet import Feet, Flag, FootSet, Kind, Method, Nature, NormalFlag, PathChange, Scope
 from ._library import Cancelled, abi_version, version
 from ._scene import NO_MEMBER, Scene
@@ -16,5 +16,5 @@ from .convert import from_freecad, from_geomdl, from_occ, from_splinepy
 
 __version__ = version()
 __all__ = ["NO_MEMBER", "Cancelled", "Curve", "Feet", "Flag", "FootSet", "Kind", "Method", "Nature", "NormalFlag", "PathChange",
-           "Scene", "Scope", "Surface", "abi_version", "convert", "from_freecad", "from_geomdl", "from_occ", "from_splinepy", "intersect",
+           "Scene", "Scope", "Surface", "abi_version", "convert", "from_freecad", "from_geomdl", "from_occ", "from_splinepy", "intersect", "trims",
            "version", "weights"]

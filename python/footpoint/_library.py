@@ -19,6 +19,7 @@ TraceFunction = CFUNCTYPE(None, c_void_p, c_size_t, c_uint32, c_double, c_double
 CurveFunction = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_double))
 SurfaceFunction = CFUNCTYPE(c_int32, c_void_p, c_double, c_double, c_uint32, POINTER(c_double))
 ReleaseFunction = CFUNCTYPE(None, c_void_p)
+RelationFunction = CFUNCTYPE(c_double, c_void_p, c_double)
 
 
 class CurveData(ctypes.Structure):
@@ -101,6 +102,53 @@ class WeightsConicShape(ctypes.Structure):
     _fields_ = [("weight", c_double), ("rho", c_double), ("eccentricity", c_double)]
 
 
+class RelationCallback(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("forward", RelationFunction), ("backward", RelationFunction), ("user", c_void_p),
+                ("release", ReleaseFunction), ("domain", c_double * 2)]
+
+
+class ElementaryData(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("kind", c_uint32), ("reserved", c_uint32), ("domain", c_double * 4), ("origin", c_double * 3),
+                ("x", c_double * 3), ("y", c_double * 3), ("z", c_double * 3), ("first", c_double), ("second", c_double),
+                ("curve", c_void_p)]
+
+
+class CoedgeData(ctypes.Structure):
+    _fields_ = [("kind", c_uint32), ("flags", c_uint32), ("edge", c_size_t), ("values", c_double * 8), ("points", c_void_p),
+                ("parameters", c_void_p), ("point_count", c_size_t), ("curve", c_void_p)]
+
+
+class LoopData(ctypes.Structure):
+    _fields_ = [("is_inner", c_uint32), ("reserved", c_uint32), ("coedges", c_void_p), ("coedge_count", c_size_t)]
+
+
+class EdgeData(ctypes.Structure):
+    _fields_ = [("curve", c_void_p), ("point", c_double * 3), ("reversed", c_uint32), ("reserved", c_uint32)]
+
+
+class TrimData(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("support", c_void_p), ("edges", c_void_p), ("edge_count", c_size_t), ("loops", c_void_p),
+                ("loop_count", c_size_t), ("flipped", c_uint32), ("reserved", c_uint32)]
+
+
+class ChangeOptions(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("tolerance", c_double), ("replacement", c_uint32), ("reserved", c_uint32)]
+
+
+class ChangeSummary(ctypes.Structure):
+    _fields_ = [("deviation", c_double), ("surface_deviation", c_double), ("proven", c_uint32), ("reserved", c_uint32)]
+
+
+class TrimFinding(ctypes.Structure):
+    _fields_ = [("kind", c_uint32), ("reserved", c_uint32), ("loop_index", c_size_t), ("coedge", c_size_t), ("parameter", c_double),
+                ("other_loop", c_size_t), ("other_coedge", c_size_t), ("other_parameter", c_double), ("numbers", c_double * 3)]
+
+
+class TrimSummary(ctypes.Structure):
+    _fields_ = [("tolerance", c_double), ("largest_opening", c_double), ("largest_gap", c_double), ("segment_error", c_double),
+                ("proven", c_uint32), ("reserved", c_uint32), ("finding_count", c_size_t)]
+
+
 class HitOptions(ctypes.Structure):
     _fields_ = [("struct_size", c_size_t), ("tolerance", c_double), ("chord", c_double), ("budget", c_uint64), ("threads", c_uint32),
                 ("reserved", c_uint32), ("should_stop", StopFunction), ("progress", ProgressFunction), ("user", c_void_p)]
@@ -144,6 +192,9 @@ STRUCTS: dict[str, type[ctypes.Structure]] = {
     "fpt_foot_point": FootPoint, "fpt_foot_member": FootMember, "fpt_scene_member": SceneMember, "fpt_scene_data": SceneData,
     "fpt_weights_options": WeightsOptions, "fpt_weights_constraint": WeightsConstraint, "fpt_weights_pole": WeightsPole,
     "fpt_weights_outcome": WeightsOutcome, "fpt_weights_summary": WeightsSummary, "fpt_weights_conic_shape": WeightsConicShape,
+    "fpt_relation_callback": RelationCallback, "fpt_elementary_data": ElementaryData, "fpt_coedge_data": CoedgeData,
+    "fpt_loop_data": LoopData, "fpt_edge_data": EdgeData, "fpt_trim_data": TrimData, "fpt_change_options": ChangeOptions,
+    "fpt_change_summary": ChangeSummary, "fpt_trim_finding": TrimFinding, "fpt_trim_summary": TrimSummary,
     "fpt_hit_options": HitOptions, "fpt_quadric": Quadric, "fpt_curve_hit": CurveHit, "fpt_ray_hit": RayHit, "fpt_branch": Branch,
     "fpt_section_point": SectionPoint, "fpt_section_region": SectionRegion, "fpt_conic": Conic,
 }
@@ -176,6 +227,17 @@ _STATUS = {
     "weights_report_surface": "pp", "weights_move_point": "pdzdp", "weights_through_point": "pzpdpp", "weights_conic": "ppp",
     "weights_of_rho": "dp", "weights_of_eccentricity": "pdpp", "weights_normalise": "pzIp", "weights_bound": "pzdp",
     "weights_standard_form": "pp", "weights_positive_form": "zzppp",
+    "relation_linear": "ppp", "relation_circle": "Idppp", "relation_through": "ppzp", "relation_piecewise": "pzp",
+    "relation_from_callback": "pp", "relation_inverse": "pp", "relation_then": "ppp", "relation_domain": "ppp",
+    "relation_apply": "ppzp", "transform_new": "ppIp", "transform_inverse": "pp", "transform_then": "ppp",
+    "transform_domain": "pppp", "transform_apply": "ppzp", "support_new": "pp", "support_elementary": "pp", "support_domain": "pp",
+    "support_evaluate": "ppzp", "support_spline": "ppp", "support_spline_transform": "ppp", "support_match": "ppdp",
+    "support_match_many": "ppdpzIp", "trim_new": "pp", "trim_whole": "pp", "trim_support": "pp", "trim_counts": "pppp",
+    "trim_loop": "pzpp", "trim_coedge": "pzzpp", "trim_coedge_points": "pzzzpp", "trim_coedge_curve": "pzzp",
+    "trim_coedge_evaluate": "pzzpzppp", "trim_edge": "pzppp", "trim_change": "pppppp", "trim_reparametrise": "ppppp",
+    "trim_to_nurbs": "ppppp", "trim_to_elementary": "pppppp", "trim_follow": "ppppp", "trim_merge": "ppIppp",
+    "trim_report_new": "pdp", "trim_report_summary": "pp", "trim_report_get": "pzp", "trim_to_json": "pzpp",
+    "trim_from_json": "pzp", "trim_picture": "ppzpzpp",
     "intersect_curves": "pppp", "intersect_surface_curve": "pppp", "intersect_curve_quadric": "pppp", "curve_hits_count": "pp",
     "curve_hits_get": "pzp", "curve_hits_undecided_count": "pp", "curve_hits_undecided_get": "pzp",
     "intersect_surface_quadrics": "ppzpp", "sections_counts": "pzp", "sections_branch_get": "pzzp", "sections_branch_points": "pzzzp",
@@ -188,6 +250,8 @@ _OTHER = {
     "query_options_init": ("pz", None), "extrema_options_init": ("pz", None),
     "weights_options_init": ("pz", None), "weights_report_free": ("p", None), "curve_free": ("p", None),
     "surface_free": ("p", None), "foot_set_free": ("p", None), "scene_free": ("p", None),
+    "change_options_init": ("pz", None), "relation_free": ("p", None), "transform_free": ("p", None), "support_free": ("p", None),
+    "trim_free": ("p", None), "trim_report_free": ("p", None),
     "hit_options_init": ("pz", None), "curve_hits_free": ("p", None), "sections_free": ("p", None), "caster_free": ("p", None),
     "ray_hits_free": ("p", None),
 }

@@ -9,7 +9,7 @@ import pytest
 from shapes import ROOT, circle, cloud, cylinder, hill
 
 import footpoint
-from footpoint import _feet, _library, intersect, weights
+from footpoint import _feet, _library, intersect, trims, weights
 
 HEADER = re.sub(r"/\*.*?\*/", "", (ROOT / "include" / "footpoint.h").read_text(encoding="utf-8"), flags=re.S)
 SCALARS = {"size_t": ctypes.c_size_t, "double": ctypes.c_double, "uint32_t": ctypes.c_uint32, "int32_t": ctypes.c_int32,
@@ -19,7 +19,7 @@ SCALARS = {"size_t": ctypes.c_size_t, "double": ctypes.c_double, "uint32_t": cty
 def c_type(text):
     text = re.sub(r"\b(const|struct)\b", "", text)
     if "*" in text:
-        return ctypes.c_char_p if text.split() == ["char", "*"] else ctypes.c_void_p
+        return ctypes.c_void_p
     return SCALARS[text.strip()]
 
 
@@ -28,7 +28,7 @@ def test_prototypes():
     for result, name, arguments in re.findall(r"^(?:FPT_MUST_USE\s+)?([a-z][\w ]*?[ *]+)fpt_(\w+)\(([^;{]*?)\);", HEADER, re.M):
         listed = [a.strip() for a in arguments.split(",")]
         types = [] if listed == ["void"] else [c_type(re.sub(r"\w+$", "", a)) for a in listed]
-        found[name] = (types, c_type(result))
+        found[name] = (types, ctypes.c_char_p if result.split() == ["const", "char", "*"] else c_type(result))
     assert len(found) > 80
     assert set(found) == set(_library.PROTOTYPES)
     for name, (types, result) in found.items():
@@ -58,7 +58,10 @@ def test_structs():
                                           (footpoint.Scope, "FPT_SCOPE_"), (footpoint.Kind, "FPT_MEMBER_"),
                                           (footpoint.Nature, "FPT_NATURE_"), (weights.State, "FPT_WISH_"),
                                           (weights.WeightFlag, "FPT_WEIGHT_"), (weights.ConstraintKind, "FPT_CONSTRAINT_"),
-                                          (weights.Unit, "FPT_UNIT_"), (intersect.HitNature, "FPT_HIT_"), (intersect.End, "FPT_END_"),
+                                          (weights.Unit, "FPT_UNIT_"), (trims.ElementaryKind, "FPT_ELEMENTARY_"),
+                                          (trims.PcurveKind, "FPT_PCURVE_"), (trims.CoedgeFlag, "FPT_COEDGE_"),
+                                          (trims.Replacement, "FPT_REPLACEMENT_"), (trims.FindingKind, "FPT_FINDING_"),
+                                          (intersect.HitNature, "FPT_HIT_"), (intersect.End, "FPT_END_"),
                                           (intersect.RayFlag, "FPT_RAY_"), (intersect.QuadricKind, "FPT_QUADRIC_"),
                                           (intersect.ConicKind, "FPT_CONIC_")])
 def test_enums(enum: type[Enum], prefix):
@@ -73,6 +76,34 @@ def test_records():
         assert dtype.itemsize == ctypes.sizeof(struct)
         assert {name: dtype.fields[name][1] for name in dtype.names} == {name: getattr(struct, name).offset for name, _ in struct._fields_}
     assert _library.ABI_VERSION == int(re.search(r"#define FPT_ABI_VERSION (\d+)", HEADER)[1])
+
+
+def reach_trims():
+    turn = 2 * np.pi
+    sphere = trims.Support.elementary("sphere", [0, turn, -turn / 4, turn / 4], first=2.0)
+    half = trims.Relation.linear([0, 1], [0, 0.5])
+    circle, steps = trims.Relation.circle(0, turn), trims.Relation.through([0, 0.5, 1], [1, 0.2, 0])
+    function = trims.Relation.function(lambda x: x * x, np.sqrt, [1, 2])
+    function.domain, trims.Relation.piecewise([half]).values_at_ends, circle.then(steps).inverse()([0.25])
+    transform = trims.Transform(circle, steps)
+    transform.then(transform.inverse())([0.1, 0.2]), transform.domain, transform.image, transform.keeps_direction
+    form = trims.Support(sphere.spline([0, 2]))
+    exact, found = sphere.spline_transform([0, 2]), sphere.match(form)
+    sphere.match_many(form, [[1, 0.5]]), sphere.evaluate([1, 0.5]), sphere.domain, found([1, 0.5])
+    hole = trims.Loop([trims.Coedge.arc([3, 0], [0.5, 0], [0, -0.5], 0, turn)], True)
+    whole = trims.TrimmedSurface.whole(sphere)
+    face = trims.TrimmedSurface(sphere, [*whole.loops, hole], whole.edges)
+    face.support, face.is_flipped, face.evaluate(0, 0, [0.5]), face.report(), trims.picture([face])
+    nurbs = face.to_nurbs([0, 2], 1e-4, trims.Replacement.SPLINE).face
+    nurbs.loops, face.to_nurbs([0, 2], 1e-3).face.loops, nurbs.to_elementary(sphere, [0, 2], 1e-3)
+    face.change(exact, form, 1e-3), face.follow(form, 1e-2)
+    nurbs.reparametrise(trims.Transform(trims.Relation.linear([0, 1], [1, 0]), trims.Relation.linear([0, 1], [0, 1])))
+    trims.TrimmedSurface.from_json(face.to_json())
+    open_loop = trims.TrimmedSurface(sphere, [trims.Loop([trims.Coedge.polyline([[0, 0], [1, 0], [1, 1]])])])
+    assert open_loop.report().findings[0].kind == trims.FindingKind.OPEN
+    parts = [trims.Support.elementary(3, [*ends, -1, 1], first=2.0) for ends in ([0, 2], [2, 5], [0, 5])]
+    left, right = (trims.TrimmedSurface.whole(part) for part in parts[:2])
+    left.merge(right, "u", parts[2])
 
 
 def test_every_function_is_reached(monkeypatch):
@@ -114,6 +145,7 @@ def test_every_function_is_reached(monkeypatch):
     weights.move_point(arch, 0.5, 1, 0.1), weights.through_point(arch, 1, [1, 1.5, 0]), weights.conic(arch.poles, [1, 1, 1])
     weights.of_rho(0.5), weights.of_eccentricity(arch.poles, 1), weights.normalise([1, 2]), weights.bound([1, 2], 1.5)
     weights.standard_form(arch), weights.positive_form(1, [0, 0, 1, 1], [[0, 0, 0, 1], [1, 0, 0, 1]])
+    reach_trims()
     line, plane = footpoint.Curve.from_poles(1, [[-5, 0, 1], [5, 0, 1]]), intersect.Quadric.plane([0, 0, 1], [0, 0, 1])
     intersect.curves(curve, curve, budget=50), intersect.surface_curve(surface, line), intersect.curve_quadric(line, plane)
     intersect.sections(surface, [plane, intersect.Quadric.plane(surface.evaluate([1, 0.5]), [1, 0, 0])])

@@ -5,6 +5,7 @@
 //! and off that side the sign of the derivative of the distance itself is used (see [`Walk::turning`]).
 
 mod sides;
+mod tips;
 
 use super::certificate::{
     LEAST_C, foot_plane_separates, free_slope, least_height, nearness, plane_separates,
@@ -549,6 +550,9 @@ impl Walk<'_, '_, '_> {
     }
 
     fn halve(&mut self, area: Area, at: usize, direction: usize) {
+        if let Some(middle) = self.beyond_tip(&area, direction) {
+            return self.cut(area, direction, middle);
+        }
         let (low, high) =
             self.memory.coefficients[at * self.slot..(at + 2) * self.slot].split_at_mut(self.slot);
         let [least, least_high] = self.sheet.grid.halve(direction, low, high);

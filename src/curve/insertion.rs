@@ -50,11 +50,13 @@ impl Curve {
         Ok((self.like(left, &before)?, self.like(right, &behind)?))
     }
 
-    fn strand(&self) -> Result<Vec<Weighted>, Error> {
+    /// Poles and weights in one list.
+    pub(crate) fn strand(&self) -> Result<Vec<Weighted>, Error> {
         weighted(&self.poles, self.weights.as_deref())
     }
 
-    fn like(&self, knots: Knots, points: &[Weighted]) -> Result<Self, Error> {
+    /// A curve with other knots and poles; weights only if this one has them.
+    pub(crate) fn like(&self, knots: Knots, points: &[Weighted]) -> Result<Self, Error> {
         let (poles, weights) = unweighted(points, self.weights.as_deref(), self.rational)?;
         Ok(Self::from_parts(knots, poles, weights))
     }
@@ -134,7 +136,7 @@ fn insert_once(
 }
 
 /// The mean of two poles in homogeneous coordinates, from the one with more influence.
-fn mix(a: &Weighted, b: &Weighted, shares: [f64; 2]) -> Weighted {
+pub(crate) fn mix(a: &Weighted, b: &Weighted, shares: [f64; 2]) -> Weighted {
     let (part_a, part_b) = (shares[0] * a.weight, shares[1] * b.weight);
     let weight = part_a + part_b;
     let (near, far, share) =
@@ -186,11 +188,12 @@ pub(crate) fn transposed(grid: &[Weighted], width: usize) -> Result<Vec<Weighted
     collect(grid.len(), entries)
 }
 
-fn checked(values: &[f64], degree: usize) -> Result<Knots, Error> {
+/// The knot vector of a degree, as long as it says.
+pub(crate) fn checked(values: &[f64], degree: usize) -> Result<Knots, Error> {
     Knots::new(values, degree, values.len() - degree - 1).map_err(|error| error.named(""))
 }
 
-fn room<T>(count: usize) -> Result<Vec<T>, Error> {
+pub(crate) fn room<T>(count: usize) -> Result<Vec<T>, Error> {
     let mut list = Vec::new();
     list.try_reserve_exact(count).map_err(|_| Error::OutOfMemory)?;
     Ok(list)

@@ -119,7 +119,7 @@ unsafe impl SelfSized for fpt_surface_callback {
 }
 
 /// The caller's data, released with the last reference once a handle was given out.
-struct User {
+pub(super) struct User {
     data: *mut c_void,
     release: Option<unsafe extern "C" fn(*mut c_void)>,
     given_out: AtomicBool,
@@ -131,8 +131,21 @@ unsafe impl Send for User {}
 unsafe impl Sync for User {}
 
 impl User {
-    fn new(data: *mut c_void, release: Option<unsafe extern "C" fn(*mut c_void)>) -> Arc<Self> {
+    pub(super) fn new(
+        data: *mut c_void,
+        release: Option<unsafe extern "C" fn(*mut c_void)>,
+    ) -> Arc<Self> {
         Arc::new(Self { data, release, given_out: AtomicBool::new(false) })
+    }
+
+    /// What the functions are called with.
+    pub(super) fn data(&self) -> *mut c_void {
+        self.data
+    }
+
+    /// A handle that uses the functions was given out: from now on they are released.
+    pub(super) fn give_out(&self) {
+        self.given_out.store(true, Ordering::Relaxed);
     }
 }
 
@@ -189,8 +202,8 @@ pub unsafe extern "C" fn fpt_curve_from_callback(
             second: known([given.second_bound]).map(|[x]| x),
         };
         let curve = CallbackCurve::new(given.domain, bounds, function)?;
-        *out = fpt_curve::handle(CurveForm::Function(Box::new(curve)));
-        user.given_out.store(true, Ordering::Relaxed);
+        *out = fpt_curve::handle(CurveForm::Function(Arc::new(curve)));
+        user.give_out();
         Ok(())
     })
 }
@@ -225,8 +238,8 @@ pub unsafe extern "C" fn fpt_surface_from_callback(
         let bounds =
             SurfaceBounds { speed: known(given.speed_bounds), second: known(given.second_bounds) };
         let surface = CallbackSurface::new(given.domain, bounds, function)?;
-        *out = fpt_surface::handle(SurfaceForm::Function(Box::new(surface)));
-        user.given_out.store(true, Ordering::Relaxed);
+        *out = fpt_surface::handle(SurfaceForm::Function(Arc::new(surface)));
+        user.give_out();
         Ok(())
     })
 }

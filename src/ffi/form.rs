@@ -16,14 +16,14 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub(super) enum CurveForm {
     Spline(Arc<IndexedCurve>),
-    Function(Box<CallbackCurve>),
+    Function(Arc<CallbackCurve>),
 }
 
 /// A surface of either kind.
 #[derive(Debug)]
 pub(super) enum SurfaceForm {
     Spline(Arc<IndexedSurface>),
-    Function(Box<CallbackSurface>),
+    Function(Arc<CallbackSurface>),
 }
 
 fn no_spline(name: &str) -> Failure {

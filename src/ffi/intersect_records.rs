@@ -6,6 +6,7 @@ use super::query::Callbacks;
 use crate::intersect::{
     Conic, CurveHit, End, Hit, HitOptions, Nature, Quadric, SectionOptions, ray_flag,
 };
+use crate::portable::SameDigits;
 use std::ffi::{c_int, c_void};
 use std::mem::{offset_of, size_of};
 
@@ -184,7 +185,7 @@ impl fpt_quadric {
             FPT_QUADRIC_PLANE => Quadric::plane(self.origin, self.axis),
             FPT_QUADRIC_SPHERE => Quadric::sphere(self.origin, self.size),
             FPT_QUADRIC_CYLINDER => Quadric::cylinder(self.origin, self.axis, self.size),
-            FPT_QUADRIC_CONE => Quadric::cone(self.origin, self.axis, self.size.atan()),
+            FPT_QUADRIC_CONE => Quadric::cone(self.origin, self.axis, self.size.arctangent()),
             FPT_QUADRIC_GENERAL => {
                 Quadric::general(self.origin, self.matrix, self.linear, self.constant)
             }

@@ -478,8 +478,9 @@ pub unsafe extern "C" fn fpt_surface_prepare(surface: *const fpt_surface) -> fpt
     guard(|| Ok(unsafe { form(surface) }?.prepare(&mut || false)?))
 }
 
-/// Bytes that the library holds for the surface: the copies of its inputs, and the search index once it is built. What the
-/// function of a callback keeps for itself is not counted.
+/// Bytes that the library holds for the surface: the copies of its inputs, and the search index once it is built (with more than
+/// 131,072 patches: the parts of it that queries have visited). What the function of a callback keeps for itself is not
+/// counted.
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]

@@ -1,5 +1,6 @@
 //! The index of a surface: its Bezier patches.
 
+mod blocks;
 mod build;
 
 use super::piece::{Frame, Span, tensor_len};
@@ -8,11 +9,14 @@ use crate::bezier::Bidegree;
 use crate::bounds::{Vector, sub};
 use crate::coefficients::Grid;
 use crate::error::Error;
-use crate::jet::{BezierPatch, Lane, pole_distance};
+use crate::jet::{BezierPatch, pole_distance};
 use crate::simd::Level;
 use crate::surface::Surface;
 use crate::tree::Tree;
+pub use blocks::HUGE;
+use blocks::{Blocks, Store};
 use build::Plan;
+use std::sync::Arc;
 
 /// A collapsed edge whose poles spread by more than this share of the box diagonal is searched as the tiny edge
 /// that it is; below it, the poles are made to coincide, at the price of that much in every bound.
@@ -77,9 +81,7 @@ pub struct SurfaceIndex {
     pub collapsed: [bool; 4],
     /// The elementary surface that this one is, if it is one.
     pub analytic: Option<Box<Analytic>>,
-    nets: Vec<f64>,
-    lanes: Vec<Lane>,
-    tensors: Vec<f64>,
+    numbers: Store,
     /// The coefficient arrays of its patches.
     pub grid: Grid,
     /// Those of their edges along s and along t.
@@ -88,20 +90,28 @@ pub struct SurfaceIndex {
 
 impl SurfaceIndex {
     /// Builds the index for the vector instructions of `level`; `poll` is asked now and then whether to stop. A large surface is
-    /// built by all cores; the bits do not depend on them.
+    /// built by all cores; the bits do not depend on them. Of one of more than `huge` patches nets and tensors are made
+    /// when a query first visits their part, so that memory goes with what is visited.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`], [`Error::Cancelled`].
     pub fn new(
-        surface: &Surface,
+        surface: &Arc<Surface>,
         level: Level,
+        huge: usize,
         poll: &mut dyn FnMut() -> bool,
     ) -> Result<Self, Error> {
-        let plan = Plan::new(surface);
+        let plan = Plan::new(surface.clone());
         let (degree, rational, columns) = (plan.degree, plan.rational, plan.columns);
-        let all = plan.build(poll)?;
+        let (frame, is_huge) = (plan.frame, plan.count() > huge);
+        let all = plan.build(!is_huge, poll)?;
+        let numbers = if is_huge {
+            Store::Blocks(Box::new(Blocks::new(plan)?))
+        } else {
+            Store::Whole(all.numbers)
+        };
         Ok(Self {
-            frame: plan.frame,
+            frame,
             tree: Tree::new(&all.boxes, all.boxes.len() / columns, columns, level),
             patches: all.patches,
             degree,
@@ -110,21 +120,20 @@ impl SurfaceIndex {
             closed: [surface.is_closed_u(), surface.is_closed_v()],
             collapsed: surface.collapsed_edges(),
             analytic: None,
-            nets: all.nets,
-            lanes: all.lanes,
+            numbers,
             grid: Grid::new(degree, rational, level),
             edge_grids: [degree.s, degree.t]
                 .map(|t| Grid::new(Bidegree { s: 0, t }, rational, level)),
-            tensors: all.tensors,
         })
     }
 
     /// Patch `k`'s poles.
     pub fn net(&self, k: usize) -> BezierPatch<'_> {
         let width = self.degree.count() * if self.rational { 4 } else { 3 };
-        let poles = &self.nets[k * width..(k + 1) * width];
+        let (numbers, k) = self.numbers.of(k);
+        let poles = &numbers.nets[k * width..(k + 1) * width];
         let count = self.degree.count();
-        let lanes = &self.lanes[k * count..(k + 1) * count];
+        let lanes = &numbers.lanes[k * count..(k + 1) * count];
         BezierPatch {
             degree: self.degree,
             rational: self.rational,
@@ -145,13 +154,14 @@ impl SurfaceIndex {
     /// Patch `k`'s tensors A, -2 B, C, when they are kept.
     pub fn tensors(&self, k: usize) -> Option<&[f64]> {
         let width = tensor_len(self.degree, self.rational);
-        self.tensors.get(k * width..(k + 1) * width)
+        let (numbers, k) = self.numbers.of(k);
+        numbers.tensors.get(k * width..(k + 1) * width)
     }
 
-    /// Bytes held.
+    /// Bytes held now: of a huge surface it grows with the parts that queries have visited.
     pub fn memory(&self) -> usize {
         size_of::<Self>()
-            + (self.nets.capacity() + self.tensors.capacity() + 4 * self.lanes.capacity()) * 8
+            + self.numbers.memory()
             + self.patches.capacity() * size_of::<Patch>()
             + self.tree.memory()
             + self.grid.memory()

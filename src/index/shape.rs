@@ -1,7 +1,8 @@
 //! A shape together with its index, built once.
 
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
+use super::patches::HUGE;
 use super::{CurveIndex, SurfaceIndex};
 use crate::curve::Curve;
 use crate::error::Error;
@@ -52,10 +53,12 @@ pub struct IndexedCurve {
 /// A surface and its search index.
 #[derive(Debug)]
 pub struct IndexedSurface {
-    surface: Surface,
+    surface: Arc<Surface>,
     level: Level,
     index: Once<SurfaceIndex>,
     general: bool,
+    /// Patches from which on the index is made in blocks.
+    huge: usize,
 }
 
 impl IndexedCurve {
@@ -117,13 +120,20 @@ impl IndexedSurface {
 
     /// As [`Self::new`], with the vector instructions of a level: answers have the same bits at each.
     pub fn at_level(surface: Surface, level: Level) -> Self {
-        Self { surface, level, index: Once::new(), general: false }
+        let (surface, index) = (Arc::new(surface), Once::new());
+        Self { surface, level, index, general: false, huge: HUGE }
     }
 
     /// As [`Self::new`], but elementary shapes are searched like any other: for tests that compare the two.
     #[doc(hidden)]
     pub fn general(surface: Surface) -> Self {
         Self { general: true, ..Self::new(surface) }
+    }
+
+    /// As [`Self::new`], but the index is made in blocks however small the surface is: for tests that compare the two.
+    #[doc(hidden)]
+    pub fn in_blocks(surface: Surface) -> Self {
+        Self { huge: 0, ..Self::new(surface) }
     }
 
     /// The surface.
@@ -134,7 +144,9 @@ impl IndexedSurface {
     /// Bytes held: the surface, and the index once it is built.
     pub fn memory(&self) -> usize {
         let index = self.index.get().map_or(0, SurfaceIndex::memory);
-        size_of::<Self>() + self.surface.heap_memory() + index
+        // The surface lies in a shared box with two counters.
+        let shared = size_of::<Surface>() + 2 * size_of::<usize>();
+        size_of::<Self>() + shared + self.surface.heap_memory() + index
     }
 
     /// The index, built now if it was not there.
@@ -143,7 +155,7 @@ impl IndexedSurface {
     /// [`Error::OutOfMemory`]; [`Error::Cancelled`] when `poll` said so.
     pub fn index(&self, poll: Poll) -> Result<&SurfaceIndex, Error> {
         self.index.get_or_build(|| {
-            let mut index = SurfaceIndex::new(&self.surface, self.level, poll)?;
+            let mut index = SurfaceIndex::new(&self.surface, self.level, self.huge, poll)?;
             if !self.general {
                 index.recognise();
             }

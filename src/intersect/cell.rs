@@ -83,7 +83,7 @@ pub fn inverse(axis: &Axis, edges: &[Vector; 2]) -> Option<([[f64; 2]; 2], [f64;
     }
     let y = [[a[1][1] / det, -a[0][1] / det], [-a[1][0] / det, a[0][0] / det]];
     // The lengths, with the rounding of the rows: at most a few units over 1e-9.
-    Some((y, y.map(|row| row[0].hypot(row[1]) * (1.0 + 1e-6))))
+    Some((y, y.map(|row| (row[0] * row[0] + row[1] * row[1]).sqrt() * (1.0 + 1e-6))))
 }
 
 impl Cell {

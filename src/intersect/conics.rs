@@ -13,6 +13,7 @@
 
 use super::quadric::Quadric;
 use crate::bounds::{Vector, add, cross, dot, norm, scaled, sub};
+use crate::portable::SameDigits;
 
 /// Share of the greatest eigenvalue below which one counts as zero.
 const NOTHING: f64 = 1e-9;
@@ -67,10 +68,11 @@ impl Conic {
         match self {
             Self::Line { origin, direction } => add(*origin, scaled(*direction, t)),
             Self::Ellipse { center, axes, lengths } => {
-                on(*center, axes, lengths[0] * t.cos(), lengths[1] * t.sin())
+                on(*center, axes, lengths[0] * t.cosine(), lengths[1] * t.sine())
             }
             Self::Hyperbola { center, axes, lengths } => {
-                on(*center, axes, lengths[0] * t.cosh(), lengths[1] * t.sinh())
+                let (up, down) = (t.exponential(), (-t).exponential());
+                on(*center, axes, lengths[0] * 0.5 * (up + down), lengths[1] * 0.5 * (up - down))
             }
             Self::Parabola { vertex, axes, focal } => on(*vertex, axes, t * t / (4.0 * focal), t),
             Self::Point(point) => *point,
@@ -151,7 +153,7 @@ fn in_plane(q: &Quadric, origin: Vector, x: Vector, y: Vector) -> Option<Vec<Con
     };
     match [is_zero(values[0]), is_zero(values[1])] {
         [true, true] => {
-            let length = b[0].hypot(b[1]);
+            let length = b[0].hypotenuse(b[1]);
             if length == 0.0 {
                 return if c == 0.0 { None } else { Some(Vec::new()) };
             }
@@ -166,8 +168,8 @@ fn in_plane(q: &Quadric, origin: Vector, x: Vector, y: Vector) -> Option<Vec<Con
             let level = q.value(center) * -1.0;
             let reach = c
                 .abs()
-                .max(slope(0).powi(2) / values[0].abs())
-                .max(slope(1).powi(2) / values[1].abs());
+                .max((slope(0) * slope(0)) / values[0].abs())
+                .max((slope(1) * slope(1)) / values[1].abs());
             let is_none = level.abs() <= NOTHING * NOTHING.sqrt() * reach.max(1e-300);
             let (p, r) = (values[0] * level.signum(), values[1] * level.signum());
             if values[0] * values[1] > 0.0 {
@@ -285,7 +287,7 @@ fn pencil(a: &Quadric, b: &Quadric) -> Common {
     }
     // Both signs of the pencil: cos p + sin q, sampled, then the angle of least third eigenvalue by golden section.
     let third = |angle: f64| {
-        let (s, c) = angle.sin_cos();
+        let (s, c) = angle.sine_cosine();
         let m: [[f64; 4]; 4] =
             std::array::from_fn(|i| std::array::from_fn(|j| c * p[i][j] + s * q[i][j]));
         let mut sizes = eigen(m).0.map(f64::abs);
@@ -339,7 +341,7 @@ fn planes(
     center: Vector,
     unit: f64,
 ) -> Common {
-    let (s, c) = angle.sin_cos();
+    let (s, c) = angle.sine_cosine();
     let m: [[f64; 4]; 4] =
         std::array::from_fn(|i| std::array::from_fn(|j| c * p[i][j] + s * q[i][j]));
     let (values, vectors) = eigen(m);

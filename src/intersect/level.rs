@@ -20,6 +20,7 @@ use super::edges::{Edges, NodeKind, line_zeros};
 use super::quadric::Polynomial;
 use crate::bezier::{Bidegree, MAX_PRODUCT, basis, cut_2d, halve_s, halve_t, isocurve};
 use crate::bounds::{HALF_ULP, extent};
+use crate::portable::SameDigits;
 
 /// Where a line that halves a box may lie, in the order of trial: zeros on it should be simple.
 const PLACES: [f64; 6] = [0.5, 0.4375, 0.5625, 0.40625, 0.53125, 0.46875];
@@ -401,7 +402,7 @@ impl Field<'_> {
     fn vanishes_along(&self, area: &Area, ends: [[f64; 2]; 2]) -> bool {
         let n = self.degree().s + self.degree().t + 1;
         (0..n).all(|k| {
-            let x = (std::f64::consts::PI * (k as f64 + 0.5) / n as f64).cos();
+            let x = (std::f64::consts::PI * (k as f64 + 0.5) / n as f64).cosine();
             let share = 0.5 - 0.5 * x;
             let at = [0, 1].map(|c| ends[0][c] + share * (ends[1][c] - ends[0][c]));
             self.value(area, at).abs() <= 0.25 * self.flat

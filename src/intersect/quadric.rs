@@ -14,6 +14,7 @@ use crate::bezier::{Bidegree, convolve, convolve_square, scale_down_2d, scale_up
 use crate::bounds::{HALF_ULP, Vector, add, dot, norm, scaled, sub};
 use crate::error::Error;
 use crate::index::{Frame, position_steps, product_steps};
+use crate::portable::SameDigits;
 
 /// A plane or a quadric: `q(x) = y.A y + 2 b.y + c` with `y = x - origin`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,7 +111,7 @@ impl Quadric {
             let text = format!("half_angle: {half_angle} is not between 0 and pi / 2");
             return Err(Error::InvalidArgument(text));
         }
-        let cosine = half_angle.cos();
+        let cosine = half_angle.cosine();
         let matrix = without_axis(unit("axis", axis)?, 1.0 / (cosine * cosine));
         Ok(Self { origin: apex, matrix, linear: [0.0; 3], constant: 0.0, slope: None })
     }

@@ -48,21 +48,28 @@ impl Surface {
     }
 
     /// The net with v running fastest, as it is stored.
-    fn rows(&self) -> Result<Vec<Weighted>, Error> {
+    pub(crate) fn rows(&self) -> Result<Vec<Weighted>, Error> {
         weighted(&self.poles, self.weights.as_deref())
     }
 
     /// The net with u running fastest.
-    fn columns(&self) -> Result<Vec<Weighted>, Error> {
+    pub(crate) fn columns(&self) -> Result<Vec<Weighted>, Error> {
         transposed(&self.rows()?, self.knots_v.pole_count())
     }
 
-    fn like_columns(&self, knots_u: Knots, points: &[Weighted]) -> Result<Self, Error> {
+    /// A surface with other knots in the first direction; `points` with u running fastest.
+    pub(crate) fn like_columns(&self, knots_u: Knots, points: &[Weighted]) -> Result<Self, Error> {
         let rows = transposed(points, knots_u.pole_count())?;
         self.like(knots_u, self.knots_v.clone(), &rows)
     }
 
-    fn like(&self, knots_u: Knots, knots_v: Knots, rows: &[Weighted]) -> Result<Self, Error> {
+    /// A surface with other knots and poles; weights only if this one has them.
+    pub(crate) fn like(
+        &self,
+        knots_u: Knots,
+        knots_v: Knots,
+        rows: &[Weighted],
+    ) -> Result<Self, Error> {
         let (poles, weights) = unweighted(rows, self.weights.as_deref(), self.rational)?;
         Ok(Self::from_parts(knots_u, knots_v, poles, weights))
     }

@@ -1,5 +1,6 @@
 //! Building the patches of a surface: extraction, balance of weights, collapsed edges; by all cores when there are many.
 
+use super::blocks::Numbers;
 use super::{MOST_SPREAD, Patch};
 use crate::bezier::{Bidegree, extraction};
 use crate::bounds::{Aabb, HALF_ULP, Vector, add, extent, norm, sub};
@@ -9,11 +10,12 @@ use crate::index::piece::{
     power_of_two_over, push_tensors, reserved, tensor_len,
 };
 use crate::index::segments::pieces;
-use crate::jet::{Lane, lanes};
+use crate::jet::lanes;
 use crate::knots::Knots;
 use crate::surface::Surface;
 use std::ops::Range;
 use std::panic::resume_unwind;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Patches from which on all cores build.
@@ -23,6 +25,7 @@ const MANY: usize = 4096;
 const GROUP: usize = 256;
 
 /// One direction's spans with their extraction matrices.
+#[derive(Debug)]
 struct Direction {
     spans: Vec<(usize, [f64; 2])>,
     matrices: Vec<f64>,
@@ -40,6 +43,10 @@ impl Direction {
         Self { spans, matrices, size }
     }
 
+    fn memory(&self) -> usize {
+        self.matrices.capacity() * 8 + self.spans.capacity() * size_of::<(usize, [f64; 2])>()
+    }
+
     fn matrix(&self, k: usize) -> &[f64] {
         let n = self.size * self.size;
         &self.matrices[k * n..(k + 1) * n]
@@ -47,8 +54,9 @@ impl Direction {
 }
 
 /// What is known before the first patch is made.
-pub struct Plan<'a> {
-    surface: &'a Surface,
+#[derive(Debug)]
+pub struct Plan {
+    surface: Arc<Surface>,
     u: Direction,
     v: Direction,
     /// As of the index.
@@ -70,25 +78,23 @@ pub struct Plan<'a> {
 pub struct Made {
     /// As of the index.
     pub patches: Vec<Patch>,
-    /// As of the index.
-    pub nets: Vec<f64>,
-    /// As of the index.
-    pub lanes: Vec<Lane>,
-    /// As of the index.
-    pub tensors: Vec<f64>,
+    /// Their numbers, when they are wanted.
+    pub numbers: Numbers,
     /// Their boxes.
     pub boxes: Vec<Aabb>,
 }
 
 struct Builder<'a> {
-    plan: &'a Plan<'a>,
+    plan: &'a Plan,
     made: Made,
+    /// Whether the numbers stay.
+    keep: bool,
 }
 
-impl<'a> Plan<'a> {
-    pub fn new(surface: &'a Surface) -> Self {
+impl Plan {
+    pub fn new(surface: Arc<Surface>) -> Self {
         let rational = surface.is_rational();
-        let [parts_u, parts_v] = if rational { parts(surface) } else { [1, 1] };
+        let [parts_u, parts_v] = if rational { parts(&surface) } else { [1, 1] };
         let u = Direction::new(surface.knots_u(), parts_u);
         let v = Direction::new(surface.knots_v(), parts_v);
         let degree = Bidegree { s: u.size - 1, t: v.size - 1 };
@@ -99,16 +105,26 @@ impl<'a> Plan<'a> {
         let collapsed = surface.collapsed_edges();
         let is_exact = |k: usize| surface.collapsed_spread(k) <= MOST_SPREAD * frame.diagonal;
         let exact = [0, 1, 2, 3].map(|k| collapsed[k] && is_exact(k));
-        let points = collapsed_points(surface, exact).map(|point| frame.enter(point));
+        let points = collapsed_points(&surface, exact).map(|point| frame.enter(point));
         Self { surface, u, v, frame, degree, rational, columns, keep_tensors, exact, points }
     }
 
-    /// Makes all patches. Errors as of the index.
-    pub fn build(&self, poll: &mut dyn FnMut() -> bool) -> Result<Made, Error> {
-        let count = self.u.spans.len() * self.columns;
+    /// Number of patches.
+    pub fn count(&self) -> usize {
+        self.u.spans.len() * self.columns
+    }
+
+    /// Bytes held beside the surface.
+    pub fn memory(&self) -> usize {
+        self.u.memory() + self.v.memory()
+    }
+
+    /// Makes all patches, with their numbers or without. Errors as of the index.
+    pub fn build(&self, numbers: bool, poll: &mut dyn FnMut() -> bool) -> Result<Made, Error> {
+        let count = self.count();
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         if count < MANY || cores == 1 {
-            return self.part(0..count, count, poll);
+            return self.part(0..count, count, numbers, poll);
         }
         let (size, stop) = (count.div_ceil(cores), AtomicBool::new(false));
         let range = |k: usize| (k * size).min(count)..((k + 1) * size).min(count);
@@ -117,11 +133,11 @@ impl<'a> Plan<'a> {
                 .map(|k| {
                     let mut poll = || stop.load(Ordering::Relaxed);
                     let (range, task) = (range(k), self);
-                    let work = move || task.part(range.clone(), range.len(), &mut poll);
+                    let work = move || task.part(range.clone(), range.len(), numbers, &mut poll);
                     (k, std::thread::Builder::new().spawn_scoped(scope, work))
                 })
                 .collect();
-            let mut all = self.part(range(0), count, poll);
+            let mut all = self.part(range(0), count, numbers, poll);
             if all.is_err() {
                 stop.store(true, Ordering::Relaxed);
             }
@@ -129,7 +145,7 @@ impl<'a> Plan<'a> {
                 // A thread that could not be started leaves its share to this one.
                 let part = match other {
                     Ok(thread) => thread.join().unwrap_or_else(|panic| resume_unwind(panic)),
-                    Err(_) => self.part(range(k), range(k).len(), poll),
+                    Err(_) => self.part(range(k), range(k).len(), numbers, poll),
                 };
                 if let Ok(made) = &mut all {
                     match part {
@@ -143,23 +159,29 @@ impl<'a> Plan<'a> {
     }
 
     /// The patches of `range`, with room for `room`.
-    fn part(
+    pub fn part(
         &self,
         range: Range<usize>,
         room: usize,
+        numbers: bool,
         poll: &mut dyn FnMut() -> bool,
     ) -> Result<Made, Error> {
         let count = self.degree.count();
         let width = count * if self.rational { 4 } else { 3 };
         let tensors = if self.keep_tensors { tensor_len(self.degree, self.rational) } else { 0 };
+        // Without the numbers there is room for those of one patch.
+        let nets = if numbers { room } else { 1 };
+        let kept = if numbers { room } else { 0 };
         let made = Made {
             patches: reserved(room)?,
-            nets: reserved(room * width)?,
-            lanes: reserved(room * count)?,
-            tensors: reserved(room * tensors)?,
+            numbers: Numbers {
+                nets: reserved(nets * width)?,
+                lanes: reserved(kept * count)?,
+                tensors: reserved(kept * tensors)?,
+            },
             boxes: reserved(room)?,
         };
-        let mut builder = Builder { plan: self, made };
+        let mut builder = Builder { plan: self, made, keep: numbers };
         for (done, k) in range.enumerate() {
             if done % GROUP == GROUP - 1 && poll() {
                 return Err(Error::Cancelled);
@@ -170,7 +192,7 @@ impl<'a> Plan<'a> {
     }
 
     fn local_net(&self, span_u: usize, span_v: usize) -> LocalNet {
-        let surface = self.surface;
+        let surface = &*self.surface;
         let columns = surface.knots_v().pole_count();
         let mut local = Vec::with_capacity(self.degree.count());
         // Equal weights are no weights: the surface says so, and then they must not scale the poles.
@@ -189,9 +211,7 @@ impl<'a> Plan<'a> {
 impl Made {
     fn append(&mut self, mut other: Self) {
         self.patches.append(&mut other.patches);
-        self.nets.append(&mut other.nets);
-        self.lanes.append(&mut other.lanes);
-        self.tensors.append(&mut other.tensors);
+        self.numbers.append(other.numbers);
         self.boxes.append(&mut other.boxes);
     }
 }
@@ -199,14 +219,21 @@ impl Made {
 impl Builder<'_> {
     fn push_patch(&mut self, k: usize) {
         let plan = self.plan;
-        let (u, v, surface) = (&plan.u, &plan.v, plan.surface);
+        let (u, v, surface) = (&plan.u, &plan.v, &*plan.surface);
         let (a, b) = (k / plan.columns, k % plan.columns);
         let at_side = [a == 0, a + 1 == u.spans.len(), b == 0, b + 1 == v.spans.len()];
         let net = plan.local_net(u.spans[a].0, v.spans[b].0);
-        let start = self.made.nets.len();
+        let start = self.made.numbers.nets.len();
         let components = if plan.rational { 4 } else { 3 };
         for component in &net.components[..components] {
-            extract(component, u.matrix(a), u.size, v.matrix(b), v.size, &mut self.made.nets);
+            extract(
+                component,
+                u.matrix(a),
+                u.size,
+                v.matrix(b),
+                v.size,
+                &mut self.made.numbers.nets,
+            );
         }
         let balance = self.balance(start);
         let (border_u, border_v) =
@@ -227,10 +254,14 @@ impl Builder<'_> {
         let margin = margin + patch.spread;
         self.made.patches.push(patch);
         self.made.boxes.push(aabb.grown(margin));
-        let net = &self.made.nets[start..];
-        self.made.lanes.extend(lanes(net, plan.rational));
+        if !self.keep {
+            self.made.numbers.nets.truncate(start);
+            return;
+        }
+        let net = &self.made.numbers.nets[start..];
+        self.made.numbers.lanes.extend(lanes(net, plan.rational));
         if plan.keep_tensors {
-            push_tensors(net, plan.degree, plan.rational, &mut self.made.tensors);
+            push_tensors(net, plan.degree, plan.rational, &mut self.made.numbers.tensors);
         }
     }
 
@@ -240,7 +271,7 @@ impl Builder<'_> {
         if !self.plan.rational {
             return [1.0; 2];
         }
-        let w = &self.made.nets[start + 3 * count..];
+        let w = &self.made.numbers.nets[start + 3 * count..];
         let width = degree.t + 1;
         let ratio = |first: f64, last: f64| last / first;
         let corner = [w[0], w[degree.t], w[degree.s * width], w[count - 1]];
@@ -254,7 +285,7 @@ impl Builder<'_> {
             };
             let largest = (0..count).fold(0.0, |m: f64, k| m.max(w[k] * grown(k)));
             let factor = power_of_two_over(largest);
-            for component in self.made.nets[start..].chunks_exact_mut(count) {
+            for component in self.made.numbers.nets[start..].chunks_exact_mut(count) {
                 (0..count).for_each(|k| component[k] *= grown(k) * factor);
             }
         }
@@ -264,7 +295,7 @@ impl Builder<'_> {
     /// Calls `f(i, j, Euclidean pole, weight)` for the net that starts at `start`.
     fn visit_poles(&self, start: usize, mut f: impl FnMut(usize, usize, Vector, f64)) {
         let count = self.plan.degree.count();
-        let net = &self.made.nets[start..];
+        let net = &self.made.numbers.nets[start..];
         for k in 0..count {
             let w = if self.plan.rational { net[3 * count + k] } else { 1.0 };
             let at = |c: usize| net[c * count + k] / w;
@@ -288,7 +319,8 @@ impl Builder<'_> {
             patch.spread += move_ + 2.0 * position_steps(last_i + last_j) * patch.radius;
             for (at, weight) in moves {
                 for c in 0..3 {
-                    self.made.nets[start + c * self.plan.degree.count() + at] = weight * point[c];
+                    self.made.numbers.nets[start + c * self.plan.degree.count() + at] =
+                        weight * point[c];
                 }
             }
         }
@@ -351,6 +383,7 @@ fn extract(
 
 #[cfg(test)]
 mod tests {
+    use super::super::blocks::{Blocks, Store};
     use super::*;
 
     fn wavy(spans: usize) -> Surface {
@@ -368,15 +401,14 @@ mod tests {
     #[test]
     fn parts_joined_are_the_whole() {
         let surface = wavy(66);
-        let (plan, count) = (Plan::new(&surface), 66 * 66);
+        let (plan, count) = (Plan::new(Arc::new(surface)), 66 * 66);
         assert!(count >= MANY);
-        let whole = plan.part(0..count, count, &mut || false).unwrap();
-        let built = plan.build(&mut || false).unwrap();
-        let mut joined = plan.part(0..1000, count, &mut || false).unwrap();
-        joined.append(plan.part(1000..count, 0, &mut || false).unwrap());
+        let whole = plan.part(0..count, count, true, &mut || false).unwrap();
+        let built = plan.build(true, &mut || false).unwrap();
+        let mut joined = plan.part(0..1000, count, true, &mut || false).unwrap();
+        joined.append(plan.part(1000..count, 0, true, &mut || false).unwrap());
         for other in [built, joined] {
-            assert_eq!((&whole.nets, &whole.tensors), (&other.nets, &other.tensors));
-            assert_eq!((&whole.lanes, &whole.boxes), (&other.lanes, &other.boxes));
+            assert_eq!((&whole.numbers, &whole.boxes), (&other.numbers, &other.boxes));
             let centers = |made: &Made| -> Vec<_> {
                 made.patches.iter().map(|p| (p.center, p.u, p.v, p.border)).collect()
             };
@@ -385,9 +417,36 @@ mod tests {
     }
 
     #[test]
+    fn blocks_hold_the_bits_of_the_whole() {
+        let surface = Arc::new(wavy(66));
+        let (plan, count) = (Plan::new(surface.clone()), 66 * 66);
+        let whole = plan.build(true, &mut || false).unwrap();
+        let bare = plan.build(false, &mut || false).unwrap();
+        assert_eq!(whole.boxes, bare.boxes);
+        assert!(bare.numbers.nets.is_empty() && bare.numbers.tensors.is_empty());
+        let blocks = Store::Blocks(Box::new(Blocks::new(plan).unwrap()));
+        let width = |all: usize| all / count;
+        let (of_nets, of_tensors) =
+            (width(whole.numbers.nets.len()), width(whole.numbers.tensors.len()));
+        let empty = blocks.memory();
+        for k in [0, 63, 64, 2000, count - 1] {
+            let (block, at) = blocks.of(k);
+            let part = |all: &[f64], each: usize, k: usize| all[k * each..(k + 1) * each].to_vec();
+            assert_eq!(
+                part(&block.nets, of_nets, at),
+                part(&whole.numbers.nets, of_nets, k),
+                "{k}"
+            );
+            let tensors = part(&block.tensors, of_tensors, at);
+            assert_eq!(tensors, part(&whole.numbers.tensors, of_tensors, k), "{k}");
+        }
+        assert!(blocks.memory() > empty && blocks.memory() < whole.numbers.memory() / 4);
+    }
+
+    #[test]
     fn building_stops_when_asked_to() {
         let surface = wavy(66);
-        let stopped = Plan::new(&surface).build(&mut || true);
+        let stopped = Plan::new(Arc::new(surface)).build(true, &mut || true);
         assert_eq!(stopped.err(), Some(Error::Cancelled));
     }
 }

@@ -1,0 +1,356 @@
+//! Faces in all forms: other elementary surfaces, raised and refined splines, merged, followed, as text and as pictures.
+
+mod faces;
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use faces::{KINDS, Random, face, sphere};
+use footpoint::bounds::{norm, sub};
+use footpoint::curve::Curve;
+use footpoint::elementary::{Axes, CircleForm, Elementary, ElementarySurface};
+use footpoint::operate::Direction;
+use footpoint::pcurve::Pcurve;
+use footpoint::transform::{Relation, Transform};
+use footpoint::trim::{
+    ChangeOptions, Coedge, Loop, LoopKind, Replacement, Support, TrimmedSurface, picture,
+};
+
+fn made(kind: Elementary, domain: [f64; 4]) -> ElementarySurface {
+    ElementarySurface::new(kind, domain).unwrap()
+}
+
+fn meridian() -> Curve {
+    let poles = [[1.5, 0.1, 0.0], [2.0, 0.1, 1.0], [1.0, 0.1, 2.0], [1.7, 0.1, 3.0]];
+    let knots = [0.0, 0.0, 0.0, 0.4, 1.0, 1.0, 1.0];
+    Curve::new(&knots, 2, &poles, Some(&[1.0, 2.0, 0.5, 1.0])).unwrap()
+}
+
+fn elementary(random: &mut Random) -> Vec<ElementarySurface> {
+    let axes = Axes::around(random.vector(), random.vector(), random.vector()).unwrap();
+    vec![
+        made(Elementary::Plane { axes }, [-1.0, 2.0, 0.5, 3.0]),
+        made(Elementary::Cylinder { axes, radius: 0.7 }, [0.0, TAU, -1.0, 2.0]),
+        made(Elementary::Cone { axes, radius: 0.0, half_angle: -0.3 }, [0.0, TAU, -4.0, 0.0]),
+        made(Elementary::Sphere { axes, radius: 2.0 }, [0.0, TAU, -FRAC_PI_2, FRAC_PI_2]),
+        made(Elementary::Torus { axes, major: 2.0, minor: 0.5 }, [0.0, TAU, 0.0, TAU]),
+        made(
+            Elementary::Revolution {
+                origin: [0.0; 3],
+                axis: [0.0, 0.0, 1.0],
+                meridian: meridian(),
+            },
+            [0.0, TAU, 0.2, 0.9],
+        ),
+        made(
+            Elementary::Extrusion { curve: meridian(), direction: [0.3, 1.0, 0.0] },
+            [0.1, 1.0, -1.0, 2.0],
+        ),
+    ]
+}
+
+/// The whole surface with a round hole in the middle.
+fn holed(support: Support) -> TrimmedSurface {
+    let whole = TrimmedSurface::whole(support.clone()).unwrap();
+    let [u0, u1, v0, v1] = support.domain();
+    let (center, size) = ([0.5 * (u0 + u1), 0.5 * (v0 + v1)], [0.2 * (u1 - u0), 0.3 * (v1 - v0)]);
+    let hole = Pcurve::arc(center, [size[0], 0.0], [0.0, -size[1]], [0.0, TAU]).unwrap();
+    let mut loops = whole.loops().to_vec();
+    loops.push(Loop::inner(vec![Coedge::alone(hole)]));
+    TrimmedSurface::new(support, whole.edges().to_vec(), loops, false).unwrap()
+}
+
+#[test]
+fn every_elementary_face_goes_to_nurbs_forms_and_back() {
+    let mut random = Random(31);
+    let options = ChangeOptions { replacement: Replacement::Vertices, ..Default::default() };
+    for surface in elementary(&mut random) {
+        let forms = [
+            surface.usual_forms(),
+            [CircleForm::Arcs(5), CircleForm::Arcs(7)],
+            [CircleForm::Halves; 2],
+        ];
+        for forms in forms {
+            if forms[0] == CircleForm::Halves && surface.angular()[0] && !surface.full_turns()[0] {
+                continue;
+            }
+            let face = holed(surface.clone().into());
+            let report = face.report(0.0).unwrap();
+            assert!(report.is_valid(), "{:?}: {report:?}", surface.kind());
+            let there = face.to_nurbs(forms, &options).unwrap();
+            let report = there.face.report(0.0).unwrap();
+            assert!(report.is_valid(), "{:?}: {report:?}", surface.kind());
+            let back = there.face.to_elementary(surface.clone(), forms, &options).unwrap();
+            for ((_, _, old), (_, _, new)) in face.coedges().zip(back.face.coedges()) {
+                assert_eq!((old.edge, old.reversed), (new.edge, new.reversed));
+                let [u0, u1, v0, v1] = surface.domain();
+                for (p, q) in [(old.start(), new.start()), (old.end(), new.end())] {
+                    assert!((p[0] - q[0]).abs() <= 1e-14 * (u1 - u0), "{p:?} {q:?}");
+                    assert!((p[1] - q[1]).abs() <= 1e-14 * (v1 - v0), "{p:?} {q:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn raised_and_refined_surfaces_keep_the_domain_bit_for_bit() {
+    let mut random = Random(32);
+    let options = ChangeOptions::default();
+    for kind in 0..KINDS.len() {
+        let (surface, face) = face(kind, &mut random);
+        let forms = [CircleForm::Halves, CircleForm::Arcs(2)];
+        let vertices = ChangeOptions { replacement: Replacement::Vertices, ..options };
+        let spline = face.to_nurbs(forms, &vertices).unwrap().face;
+        let Support::Spline(support) = spline.support() else { unreachable!() };
+        let finer = support.surface().elevate(Direction::U, 1).unwrap();
+        let finer = finer.elevate(Direction::V, 2).unwrap().insert_knot_u(0.37, 1).unwrap();
+        let finer = spline.on_surface(finer, &options).unwrap();
+        assert!(finer.proven && finer.deviation == 0.0);
+        for ((_, _, old), (_, _, new)) in spline.coedges().zip(finer.face.coedges()) {
+            assert_eq!(old.pcurve, new.pcurve);
+        }
+        let back = finer.face.to_elementary(surface, forms, &vertices).unwrap();
+        assert_eq!(back.face.loops().len(), face.loops().len());
+    }
+}
+
+#[test]
+fn reversal_and_exchange_of_splines_are_exact_and_their_own_inverses() {
+    let mut random = Random(33);
+    let options = ChangeOptions { replacement: Replacement::Vertices, ..Default::default() };
+    for kind in 0..KINDS.len() {
+        let (_, face) = face(kind, &mut random);
+        let forms = [CircleForm::Halves, CircleForm::Arcs(2)];
+        let face = face.to_nurbs(forms, &options).unwrap().face;
+        let domain = face.support().domain();
+        let range = [domain[0], domain[1]];
+        let turn = || Relation::reversal(range).unwrap();
+        let stay = || Relation::identity(range).unwrap();
+        let transforms = [
+            Transform::new(turn(), stay()),
+            Transform::new(stay(), turn()),
+            Transform::new(turn(), turn()),
+            Transform::exchange(domain).unwrap(),
+        ];
+        for transform in transforms {
+            let once = face.reparametrised(&transform, &options).unwrap();
+            assert!(once.proven && once.deviation == 0.0);
+            assert_eq!(once.face.is_flipped() != face.is_flipped(), !transform.keeps_direction());
+            // A point of the boundary keeps its normal in space.
+            let twice = once.face.reparametrised(&transform.inverse(), &options).unwrap().face;
+            assert_eq!(twice.is_flipped(), face.is_flipped());
+            for ((_, _, old), (_, _, new)) in face.coedges().zip(twice.coedges()) {
+                assert_eq!((old.edge, old.reversed), (new.edge, new.reversed));
+                let (p, q) = (old.start(), new.start());
+                assert!((p[0] - q[0]).abs() <= 4e-16 && (p[1] - q[1]).abs() <= 4e-16);
+            }
+        }
+    }
+}
+
+#[test]
+fn two_halves_of_a_face_are_merged_to_the_whole() {
+    let mut random = Random(34);
+    let Elementary::Sphere { axes, radius } = *sphere(&mut random).kind() else { unreachable!() };
+    let part = |u0: f64, u1: f64| -> Support {
+        made(Elementary::Sphere { axes, radius }, [u0, u1, -1.0, 1.0]).into()
+    };
+    let (left, right) = (part(0.0, 2.0), part(2.0, 5.0));
+    let first = TrimmedSurface::whole(left.clone()).unwrap();
+    let second = TrimmedSurface::whole(right.clone()).unwrap();
+    let options = ChangeOptions::default();
+    let whole = first.merged(&second, Direction::U, part(0.0, 5.0), &options).unwrap();
+    assert_eq!((whole.loops().len(), whole.loops()[0].coedges.len()), (1, 6));
+    assert_eq!(whole.edges().len(), 6);
+    let report = whole.report(0.0).unwrap();
+    assert!(report.is_valid() && (report.areas[0] - 10.0).abs() < 1e-9, "{report:?}");
+    // Two faces with a notch each on the border make a hole; a shorter border leaves pieces of it.
+    let notched = |support: Support, at_end: bool| {
+        let iso =
+            |fixed, at, from, to| Coedge::alone(Pcurve::isoline(fixed, at, from, to).unwrap());
+        let [u0, u1, ..] = support.domain();
+        let (u, v) = (Direction::U, Direction::V);
+        let coedges = if at_end {
+            vec![
+                iso(v, -1.0, u0, u1),
+                iso(u, u1, -1.0, -0.5),
+                iso(v, -0.5, u1, u1 - 0.5),
+                iso(u, u1 - 0.5, -0.5, 0.5),
+                iso(v, 0.5, u1 - 0.5, u1),
+                iso(u, u1, 0.5, 1.0),
+                iso(v, 1.0, u1, u0),
+                iso(u, u0, 1.0, -1.0),
+            ]
+        } else {
+            vec![
+                iso(v, -1.0, u0, u1),
+                iso(u, u1, -1.0, 1.0),
+                iso(v, 1.0, u1, u0),
+                iso(u, u0, 1.0, 0.4),
+                iso(v, 0.4, u0, u0 + 0.5),
+                iso(u, u0 + 0.5, 0.4, -0.4),
+                iso(v, -0.4, u0 + 0.5, u0),
+                iso(u, u0, -0.4, -1.0),
+            ]
+        };
+        TrimmedSurface::new(support, Vec::new(), vec![Loop::outer(coedges)], false).unwrap()
+    };
+    let (first, second) = (notched(left, true), notched(right.clone(), false));
+    let whole = first.merged(&second, Direction::U, part(0.0, 5.0), &options).unwrap();
+    let kinds: Vec<LoopKind> = whole.loops().iter().map(|chain| chain.kind).collect();
+    assert_eq!(kinds, [LoopKind::Outer, LoopKind::Inner]);
+    let report = whole.report(0.0).unwrap();
+    assert!(report.is_valid(), "{report:?}");
+    assert!((report.areas[0] - 10.0).abs() < 1e-9 && (report.areas[1] + 0.9).abs() < 1e-9);
+    let text = second.merged(&first, Direction::U, part(0.0, 5.0), &options).unwrap_err();
+    assert!(text.to_string().starts_with("other: its domain begins at 0"), "{text}");
+}
+
+/// A face on a sphere seen in the parameters of a spline form whose axis is tilted: not separable.
+#[test]
+fn a_face_is_followed_onto_other_axes() {
+    let mut random = Random(35);
+    let Elementary::Sphere { axes, .. } = *sphere(&mut random).kind() else { unreachable!() };
+    let domain = [0.0, TAU, -FRAC_PI_2, FRAC_PI_2];
+    let surface = made(Elementary::Sphere { axes, radius: 2.0 }, domain);
+    let circle = Pcurve::arc([2.0, 0.3], [0.5, 0.0], [0.0, 0.4], [0.0, TAU]).unwrap();
+    let ring = Pcurve::arc([2.0, 0.3], [0.2, 0.0], [0.0, -0.1], [0.0, TAU]).unwrap();
+    let loops =
+        vec![Loop::outer(vec![Coedge::alone(circle)]), Loop::inner(vec![Coedge::alone(ring)])];
+    let face = TrimmedSurface::new(surface.clone().into(), Vec::new(), loops, false).unwrap();
+    // Turned about x: the old pole lies on the new equator; the seam is elsewhere.
+    let tilted = Axes { x: axes.x, y: axes.z, z: axes.y.map(|x| -x), ..axes };
+    let other = made(Elementary::Sphere { axes: tilted, radius: 2.0 }, domain);
+    let options = ChangeOptions { tolerance: 1e-4, ..Default::default() };
+    let changed = face.followed(other.clone().into(), &options).unwrap();
+    assert!(changed.face.report(4e-4).unwrap().is_valid());
+    for ((_, _, old), (_, _, new)) in face.coedges().zip(changed.face.coedges()) {
+        for k in 0..=200 {
+            let share = f64::from(k) / 200.0;
+            let off = sub(face.coedge_point(old, share), changed.face.coedge_point(new, share));
+            assert!(norm(off) < 1e-4);
+        }
+    }
+    // A mirrored surface turns the loops and keeps the normal of the face.
+    let mirrored = Axes { z: axes.z.map(|x| -x), ..axes };
+    let mirrored = made(Elementary::Sphere { axes: mirrored, radius: 2.0 }, domain);
+    let turned = face.followed(mirrored.into(), &options).unwrap().face;
+    assert!(turned.is_flipped() && turned.report(4e-4).unwrap().is_valid());
+    // A loop around the new seam cannot be one loop there.
+    let crossing = Axes { x: axes.x.map(|x| -x), y: axes.y.map(|x| -x), ..axes };
+    let away = made(Elementary::Sphere { axes: crossing, radius: 2.0 }, domain);
+    let arc = Pcurve::arc([PI, 0.3], [0.5, 0.0], [0.0, 0.4], [0.0, TAU]).unwrap();
+    let loops = vec![Loop::outer(vec![Coedge::alone(arc)])];
+    let across = TrimmedSurface::new(surface.into(), Vec::new(), loops, false).unwrap();
+    let text = across.followed(away.into(), &options).unwrap_err().to_string();
+    assert!(text.contains("crosses a seam"), "{text}");
+}
+
+#[test]
+fn faces_with_seams_and_poles_are_followed_as_closed_loops() {
+    let mut random = Random(36);
+    for kind in 0..KINDS.len() {
+        let (surface, face) = face(kind, &mut random);
+        let Elementary::Sphere { radius, .. } = *surface.kind() else { unreachable!() };
+        let form = surface.nurbs([CircleForm::Halves, CircleForm::Arcs(2)]).unwrap();
+        let options = ChangeOptions { tolerance: 1e-3 * radius, ..Default::default() };
+        let changed = face.followed(form.into(), &options).unwrap();
+        let report = changed.face.report(4e-3 * radius).unwrap();
+        assert!(report.is_valid(), "{}: {report:?}", KINDS[kind]);
+        for (old, new) in face.loops().iter().zip(changed.face.loops()) {
+            assert_eq!((old.kind, old.coedges.len()), (new.kind, new.coedges.len()));
+        }
+    }
+}
+
+/// The same bits of every number, told by the text of a second writing.
+#[test]
+fn text_comes_back_with_the_same_bits() {
+    let mut random = Random(37);
+    let mut all: Vec<TrimmedSurface> =
+        (0..20).map(|round| face(round % KINDS.len(), &mut random).1).collect();
+    all.extend(elementary(&mut random).into_iter().map(|surface| holed(surface.into())));
+    let vertices = ChangeOptions { replacement: Replacement::Vertices, ..Default::default() };
+    let splines: Vec<TrimmedSurface> = all
+        .iter()
+        .filter_map(|face| {
+            let Support::Elementary(support) = face.support() else { return None };
+            face.to_nurbs(support.surface().usual_forms(), &vertices).ok()
+        })
+        .map(|changed| changed.face)
+        .collect();
+    assert!(splines.len() > 20);
+    all.extend(splines);
+    for face in all {
+        let text = face.to_json().unwrap();
+        let back = TrimmedSurface::from_json(&text).unwrap();
+        assert_eq!(back.to_json().unwrap(), text);
+        assert_eq!(back.support().domain(), face.support().domain());
+        for ((_, _, a), (_, _, b)) in face.coedges().zip(back.coedges()) {
+            assert_eq!(a.pcurve, b.pcurve);
+            assert_eq!(
+                (a.edge, a.reversed, a.same_parameter),
+                (b.edge, b.reversed, b.same_parameter)
+            );
+            for share in [0.0, 0.3, 1.0] {
+                assert_eq!(face.coedge_point(a, share), back.coedge_point(b, share));
+                assert_eq!(face.edge_point(a, share), back.edge_point(b, share));
+            }
+        }
+    }
+}
+
+#[test]
+fn text_that_is_no_face_is_refused_with_its_place() {
+    let face = holed(elementary(&mut Random(38)).swap_remove(3).into());
+    let text = face.to_json().unwrap();
+    let refused = |from: &str, to: &str| {
+        assert!(text.contains(from), "{from} is not in {text}");
+        TrimmedSurface::from_json(&text.replacen(from, to, 1)).unwrap_err().to_string()
+    };
+    assert!(TrimmedSurface::from_json("{").unwrap_err().to_string().starts_with("json: EOF"));
+    assert_eq!(refused("\"flipped\"", "\"flip\""), "json.flipped: is missing");
+    assert_eq!(
+        refused("\"radius\":2.0", "\"radius\":-2.0"),
+        "json.support: radius: -2 is not positive"
+    );
+    assert_eq!(
+        refused("\"radius\":2.0", "\"radius\":\"2\""),
+        "json.support.radius: is not a number"
+    );
+    assert_eq!(
+        refused("\"isoline\"", "\"iso\""),
+        "json.loops[0].coedges[0].pcurve.kind: \"iso\" is no kind of pcurve"
+    );
+    assert_eq!(refused("\"version\":1", "\"version\":2"), "json.version: is not 1");
+    let deep = "[".repeat(100_000);
+    assert!(TrimmedSurface::from_json(&deep).is_err());
+    for cut in (0..text.len()).step_by(41) {
+        assert!(TrimmedSurface::from_json(&text[..cut]).is_err());
+    }
+}
+
+/// The pictures of README and guide are made by this test when asked: `FOOTPOINT_PICTURES=folder`.
+#[test]
+fn a_picture_shows_each_face_with_finite_numbers() {
+    let mut random = Random(41);
+    let vertices = ChangeOptions { tolerance: 1e-3, replacement: Replacement::Polyline };
+    let mut faces = Vec::new();
+    for kind in [1, 2, 3] {
+        let (_, face) = face(kind, &mut random);
+        let form = face.to_nurbs([CircleForm::Halves, CircleForm::Arcs(2)], &vertices).unwrap();
+        faces.extend([
+            (format!("{}: by angles", KINDS[kind]), face),
+            ("as NURBS".into(), form.face),
+        ]);
+    }
+    let list: Vec<(&str, &TrimmedSurface)> =
+        faces.iter().map(|(title, face)| (title.as_str(), face)).collect();
+    let svg = picture(&list, [0.0; 3]).unwrap();
+    assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
+    assert!(!svg.contains("NaN") && !svg.contains("inf") && svg.matches("<path").count() > 50);
+    assert!(picture(&[], [0.0; 3]).is_err() && picture(&list, [f64::NAN; 3]).is_err());
+    if let Ok(folder) = std::env::var("FOOTPOINT_PICTURES") {
+        std::fs::write(std::path::Path::new(&folder).join("trims.svg"), svg).unwrap();
+    }
+}
