@@ -496,6 +496,8 @@ void trims_are_those_of_the_c_api() {
     left.domain[1] = right.domain[0] = 2;
     const footpoint::trimmed_surface a{footpoint::support(left)}, b{footpoint::support(right)};
     CHECK(a.merge(b, 0, footpoint::support(data)).coedge_count(0) == 6);
+}
+
 void intersections_are_those_of_the_c_api() {
     const std::vector<double> ends = {0, 0, 1, 1};
     const curve a(1, ends, std::vector<double>{0, 0, 0, 2, 2, 0}), b(1, ends, std::vector<double>{0, 2, 0, 2, 0, 0});
