@@ -55,7 +55,12 @@ fn circles_cross_touch_and_coincide() {
         // Nearly: cut by 1e-7, missed by 1e-7.
         let hits = meet(&unit, &moved(0.5, 1.5 - 1e-7));
         assert_eq!(kinds(&hits), [(Nature::Transversal, 1); 2], "{hits:?}");
-        assert!(meet(&unit, &moved(0.5, 1.5 + 1e-7)).hits.is_empty());
+        // Within the default tolerance of 1e-7 of the diagonal, and not.
+        let hits = meet(&unit, &moved(0.5, 1.5 + 1e-7));
+        assert_eq!(kinds(&hits), [(Nature::Tangential, 2)], "{hits:?}");
+        assert!((hits.hits[0].distance / scale - 1e-7).abs() < 1e-12 + 1e-15 * far, "{hits:?}");
+        let hits = meet(&unit, &moved(0.5, 1.5 + 1e-6));
+        assert!(hits.hits.is_empty() && hits.is_complete(), "{hits:?}");
     }
 }
 

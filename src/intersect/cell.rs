@@ -245,7 +245,7 @@ impl Cell {
             return Meeting::None;
         }
         let deviation = lengths[0].max(lengths[1]) * self.slope;
-        if !(deviation <= MOST_DEVIATION) {
+        if deviation.is_nan() || deviation > MOST_DEVIATION {
             return if self.is_beside(axis, r, off) { Meeting::None } else { Meeting::Open };
         }
         let is_inside = (0..2).all(|k| at[k].abs() + reach[k] < 1.0);

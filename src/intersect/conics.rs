@@ -165,7 +165,7 @@ fn in_plane(q: &Quadric, origin: Vector, x: Vector, y: Vector) -> Option<Vec<Con
             let shift = [0, 1].map(|k| -slope(k) / values[k]);
             let center = add(origin, add(scaled(axis(0), shift[0]), scaled(axis(1), shift[1])));
             // l0 X^2 + l1 Y^2 = level
-            let level = q.value(center) * -1.0;
+            let level = -q.value(center);
             let reach = c
                 .abs()
                 .max((slope(0) * slope(0)) / values[0].abs())

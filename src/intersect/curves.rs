@@ -179,6 +179,7 @@ impl<'a> Work<'a> {
             }
         }
         let coarse = self.pairs.tolerance;
+        let mut outer = Vec::new();
         for group in groups(together) {
             if self.is_overlap(&group, &mut out) {
                 continue;
@@ -192,6 +193,7 @@ impl<'a> Work<'a> {
             self.pairs.tolerance = coarse;
             let is = |kind| move |item: &&Found| item.kind == kind;
             out.undecided.extend(finer.iter().filter(is(FoundKind::Undecided)).map(boxed));
+            outer.push(hull(&group));
             let before = crossings.len();
             crossings
                 .extend(finer.iter().filter(is(FoundKind::Crossing)).map(|f| self.crossing(f)));
@@ -208,7 +210,32 @@ impl<'a> Work<'a> {
             a.w.total_cmp(&b.w).then(a.u.total_cmp(&b.u)).then(a.v.total_cmp(&b.v))
         });
         self.join(&mut out.hits);
+        for (low, high) in outer {
+            self.widen(&mut out.hits, low, high);
+        }
         Ok(out)
+    }
+
+    /// Intervals of the hits in a box of near places: together they hold all of it.
+    fn widen(&self, hits: &mut [CurveHit], low: [f64; 3], high: [f64; 3]) {
+        let order = if matches!(self.target, Target::Curve(_)) { [1, 0] } else { [0, 1] };
+        let inside = |hit: &CurveHit| {
+            let at = [hit.u, hit.v];
+            hit.nature != Nature::Overlap
+                && (low[2]..=high[2]).contains(&hit.w)
+                && (0..2).all(|k| (low[order[k]]..=high[order[k]]).contains(&at[k]))
+        };
+        let first = hits.iter().position(inside);
+        let last = hits.iter().rposition(inside);
+        let (Some(first), Some(last)) = (first, last) else { return };
+        hits[first].w_range[0] = hits[first].w_range[0].min(low[2]);
+        hits[last].w_range[1] = hits[last].w_range[1].max(high[2]);
+        for k in [first, last] {
+            let hit = &mut hits[k];
+            let grown = |range: [f64; 2], c: usize| [range[0].min(low[c]), range[1].max(high[c])];
+            hit.u_range = grown(hit.u_range, order[0]);
+            hit.v_range = grown(hit.v_range, order[1]);
+        }
     }
 
     /// Slopes of the first shape (two for a surface) and of the curve.

@@ -61,6 +61,9 @@ pub struct FlatEdge {
     pub tangential: bool,
 }
 
+/// Nodes on the four sides of a patch: local parameter along the side, node.
+pub type Sides = [Vec<(f64, usize)>; 4];
+
 /// Nodes on the edges and corners of a grid.
 pub struct Edges {
     rows: usize,
@@ -274,7 +277,7 @@ impl Edges {
     }
 
     /// Nodes on the four sides and corners of a patch, in its local parameters.
-    pub fn of_patch(&self, patch: usize) -> ([Vec<(f64, usize)>; 4], [Option<usize>; 4]) {
+    pub fn of_patch(&self, patch: usize) -> (Sides, [Option<usize>; 4]) {
         let sides = [0, 1, 2, 3].map(|side| {
             let span = self.spans[patch][1 - side / 2];
             let nodes = &self.along[side / 2][self.side_edge(patch, side)];

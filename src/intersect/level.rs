@@ -376,8 +376,10 @@ impl Field<'_> {
             let double = |x: &(f64, usize)| level.nodes[x.1] == NodeKind::Double;
             let is_free = area.sides[free].is_empty() && area.sides[free + 1].is_empty();
             let across = usize::from(a == 0);
-            if !(double(first) && double(last) && is_free)
-                || !bends(&area.values, self.degree(), across, area.error)
+            if !(double(first)
+                && double(last)
+                && is_free
+                && bends(&area.values, self.degree(), across, area.error))
             {
                 continue;
             }

@@ -447,7 +447,7 @@ impl Pairs<'_> {
             let dx: [f64; 3] = std::array::from_fn(|k| if k < n { -dot(y[k], value) } else { 0.0 });
             let size = dx.iter().fold(0.0f64, |m, x| m.max(x.abs()));
             x = std::array::from_fn(|k| x[k] + dx[k]);
-            if !(size < 8.0) || x.iter().any(|x| x.abs() > 4.0) || step == 20 {
+            if size.is_nan() || size >= 8.0 || x.iter().any(|x| x.abs() > 4.0) || step == 20 {
                 return None;
             }
             if size < 1e-11 || (size < 1e-5 && size > 0.5 * before) {
@@ -547,7 +547,7 @@ fn undo(v: &[Vector]) -> Option<[Vector; 3]> {
     if let [a, b] = v {
         let [e, f, g] = [dot(*a, *a), dot(*a, *b), dot(*b, *b)];
         let det = e * g - f * f;
-        if !(det > 1e-14 * e * g) {
+        if det.is_nan() || det <= 1e-14 * e * g {
             return None;
         }
         let row = |p: f64, q: f64| add(scaled(*a, p / det), scaled(*b, q / det));
@@ -556,7 +556,7 @@ fn undo(v: &[Vector]) -> Option<[Vector; 3]> {
     let [a, b, c] = v else { return None };
     let n = [cross(*b, *c), cross(*c, *a), cross(*a, *b)];
     let det = dot(*a, n[0]);
-    if !(det.abs() > 1e-9 * norm(*a) * norm(*b) * norm(*c)) {
+    if det.is_nan() || det.abs() <= 1e-9 * norm(*a) * norm(*b) * norm(*c) {
         return None;
     }
     Some(n.map(|n| scaled(n, 1.0 / det)))

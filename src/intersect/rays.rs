@@ -497,7 +497,7 @@ impl Caster {
                 flags |= ray_flag::OVERLAP;
             }
             // Not a number on a collapsed edge: not shown to cross.
-            if !(slant > 1e-5) {
+            if slant.is_nan() || slant <= 1e-5 {
                 flags |= ray_flag::TANGENTIAL;
             }
             let t = dot(sub(foot.point, ray.origin), unit);
@@ -528,7 +528,7 @@ fn newton(
         let det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
         let step =
             [(j[0][1] * f[1] - j[1][1] * f[0]) / det, (j[1][0] * f[0] - j[0][0] * f[1]) / det];
-        if step.iter().zip(half).any(|(d, h)| !(d.abs() <= 8.0 * h)) {
+        if step.iter().zip(half).any(|(d, h)| d.is_nan() || d.abs() > 8.0 * h) {
             return None;
         }
         x = [x[0] + step[0], x[1] + step[1]];

@@ -109,9 +109,9 @@ impl IndexedSurface {
         let results: Vec<Mutex<Option<Result<Section, Error>>>> =
             quadrics.iter().map(|_| Mutex::new(None)).collect();
         let work = |poll: &mut dyn FnMut() -> bool| {
-            while let Some(quadric) = quadrics.get(next.fetch_add(1, Ordering::Relaxed)) {
-                let k = (std::ptr::from_ref(quadric) as usize - quadrics.as_ptr() as usize)
-                    / size_of::<Quadric>();
+            loop {
+                let k = next.fetch_add(1, Ordering::Relaxed);
+                let Some(quadric) = quadrics.get(k) else { break };
                 let made = Work::new(self, index, quadric, options).run(poll);
                 *results[k].lock().unwrap_or_else(PoisonError::into_inner) = Some(made);
                 done.fetch_add(1, Ordering::Relaxed);
@@ -342,8 +342,13 @@ impl<'a> Work<'a> {
                         double = Some(node);
                     }
                     NodeKind::Double => {
-                        if level.arcs.iter().any(|arc| arc.nodes.contains(&node)) {
-                            arms.push((node, place, lump.patch));
+                        // Arcs that touch the line here from its other side: this is where all arms meet. An arc of
+                        // contact ends here.
+                        let arc = level.arcs.iter().find(|arc| arc.nodes.contains(&node));
+                        match arc.map(|arc| arc.tangential) {
+                            Some(true) => arms.push((node, place, lump.patch)),
+                            Some(false) => double = double.or(Some(node)),
+                            None => {}
                         }
                     }
                     _ if seen.iter().filter(|&&other| other == node).count() == 1 => {
@@ -475,7 +480,7 @@ fn stationary(f: &Polynomial, start: [f64; 2], reach: f64) -> Option<[f64; 2]> {
         let det = a * c - b * b;
         let step = [(b * g[1] - c * g[0]) / det, (b * g[0] - a * g[1]) / det];
         let next = [0, 1].map(|k| (at[k] + step[k]).clamp(0.0, 1.0));
-        if next.iter().zip(start).any(|(x, y)| !((x - y).abs() <= reach)) {
+        if next.iter().zip(start).any(|(x, y)| x.is_nan() || (x - y).abs() > reach) {
             return None;
         }
         let moved = (next[0] - at[0]).abs().max((next[1] - at[1]).abs());
