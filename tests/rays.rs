@@ -95,7 +95,7 @@ fn lines_meet_a_torus_as_often_as_the_quartic_has_zeros() {
         let sign = |k: usize| at(-6.0 + 12.0 * k as f64 / steps as f64) > 0.0;
         let changes = (1..=steps).filter(|&k| sign(k) != sign(k - 1)).count();
         assert!(found.len() >= changes, "{} {changes}", found.len());
-        assert!((found.len() - changes) % 2 == 0 && found.len() <= 4);
+        assert!((found.len() - changes).is_multiple_of(2) && found.len() <= 4);
         assert!(found.iter().all(|hit| off(hit.point).abs() < 1e-15 * 8.0));
         by_count[found.len()] += 1;
     }
