@@ -18,6 +18,16 @@ use crate::portable::SameDigits;
 /// Share of the greatest eigenvalue below which one counts as zero.
 const NOTHING: f64 = 1e-9;
 
+/// Share of the terms of a form below which their sum is none: rounding, a hundred times over.
+const NONE: f64 = 3e-14;
+
+/// Sum of the absolute terms of a quadric at a point, with what the rounding of coordinates makes of it.
+fn reach_of(q: &Quadric, x: Vector) -> f64 {
+    let y = norm(sub(x, q.origin));
+    let grain = 1e-6 * (norm(x) + norm(q.origin));
+    q.constant.abs() + q.size() * (y * y + grain * grain) + 2.0 * norm(q.linear) * y
+}
+
 /// A conic in space; directions are unit vectors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Conic {
@@ -166,11 +176,8 @@ fn in_plane(q: &Quadric, origin: Vector, x: Vector, y: Vector) -> Option<Vec<Con
             let center = add(origin, add(scaled(axis(0), shift[0]), scaled(axis(1), shift[1])));
             // l0 X^2 + l1 Y^2 = level
             let level = -q.value(center);
-            let reach = c
-                .abs()
-                .max((slope(0) * slope(0)) / values[0].abs())
-                .max((slope(1) * slope(1)) / values[1].abs());
-            let is_none = level.abs() <= NOTHING * NOTHING.sqrt() * reach.max(1e-300);
+            let reach = reach_of(q, center);
+            let is_none = level.abs() <= NONE * reach;
             let (p, r) = (values[0] * level.signum(), values[1] * level.signum());
             if values[0] * values[1] > 0.0 {
                 if is_none {
@@ -207,10 +214,10 @@ fn in_plane(q: &Quadric, origin: Vector, x: Vector, y: Vector) -> Option<Vec<Con
             let base = add(origin, scaled(axis(k), shift));
             // value X^2 + 2 linear Y + rest = 0
             let rest = c - slope(k) * slope(k) / value;
-            let reach = c.abs().max(slope(k) * slope(k) / value.abs()).max(1e-300);
+            let reach = reach_of(q, base);
             if linear.abs() <= NOTHING * (reach * value.abs()).sqrt() {
                 let square = -rest / value;
-                if square.abs() <= NOTHING * NOTHING.sqrt() * reach / value.abs() {
+                if square.abs() <= NONE * reach / value.abs() {
                     return Some(vec![line(base, axis(free))]);
                 }
                 if square < 0.0 {
