@@ -168,6 +168,9 @@ impl Quadric {
     pub fn distance(&self, x: Vector) -> f64 {
         let (value, slope) = (self.value(x).abs(), norm(self.gradient(x)));
         let bend = self.size();
+        if value == 0.0 {
+            return 0.0;
+        }
         // Near an apex the gradient vanishes too: then q is quadratic in the distance.
         if slope * slope >= value * bend { value / slope } else { (value / bend).sqrt() }
     }
