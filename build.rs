@@ -8,7 +8,7 @@ const HEADER: &str = "include/footpoint.h";
 /// Setting this variable writes the header instead of comparing it.
 const WRITE: &str = "FOOTPOINT_WRITE_HEADER";
 /// The files that hold the C API, in the order in which the header has them.
-const SOURCES: [&str; 37] = [
+const SOURCES: [&str; 40] = [
     "src/ffi.rs",
     "src/ffi/records.rs",
     "src/ffi/options.rs",
@@ -46,6 +46,9 @@ const SOURCES: [&str; 37] = [
     "src/ffi/inspect_records.rs",
     "src/ffi/fair.rs",
     "src/ffi/inspect.rs",
+    "src/ffi/intersect_records.rs",
+    "src/ffi/intersect.rs",
+    "src/ffi/intersect_rays.rs",
 ];
 
 fn main() {

@@ -65,7 +65,7 @@ static void conics_pass_where_they_must(void) {
 static void quadrics_and_the_torus_satisfy_their_equations(void) {
     static const double unit[] = {1, 1, 1}, turn[] = {0, 2 * 3.14159265358979323846}, domain[] = {-1, 1, -2, 2};
     static const double from[] = {-1, -1, 0, 0, 0, -1};
-    for (uint32_t kind = FPT_QUADRIC_ELLIPSOID; kind <= FPT_QUADRIC_CYLINDER; kind++) {
+    for (uint32_t kind = FPT_PATCH_ELLIPSOID; kind <= FPT_PATCH_CYLINDER; kind++) {
         fpt_surface *surface = NULL;
         double profile[] = {from[kind], 1};
         CHECK_OK(fpt_surface_quadric(kind, NULL, unit, turn, profile, FPT_ARC_QUARTERS, &surface));
@@ -205,7 +205,7 @@ static void offsets_keep_their_distance(void) {
     CHECK_OK(fpt_curve_evaluate(offset, 0.3, 0, at));
     CHECK_NEAR(hypot(at[0], at[1]), 1.5, 1e-6);
     fpt_curve_free(offset);
-    CHECK_OK(fpt_surface_quadric(FPT_QUADRIC_ELLIPSOID, NULL, unit, part, band, FPT_ARC_QUARTERS, &ball));
+    CHECK_OK(fpt_surface_quadric(FPT_PATCH_ELLIPSOID, NULL, unit, part, band, FPT_ARC_QUARTERS, &ball));
     CHECK_OK(fpt_surface_offset(ball, 1, &shell));
     CHECK_OK(fpt_surface_evaluate(shell, 0.5, 0.5, 0, at));
     CHECK_NEAR(hypot(hypot(at[0], at[1]), at[2]), 3, 1e-13);

@@ -527,7 +527,7 @@ void fits_and_constructions_are_those_of_the_c_api() {
     CHECK(round.degree() == 5 && ellipse_arc(standard_axes, 2, 1, 0, 1).degree() == 2);
     CHECK(arc_through({1, 0, 0, 0, 1, 0, -1, 0, 0}).is_rational() && conic_arc({0, 0, 0, 1, 1, 0, 2, 0, 0}, 0.4).is_rational());
     CHECK(parabola(standard_axes, 1, 0, 1).degree() == 2 && hyperbola(standard_axes, 1, 1, 0, 1).degree() == 2);
-    const surface ball = quadric(FPT_QUADRIC_ELLIPSOID, standard_axes, {1, 1, 1}, {0, 1}, {-0.5, 0.5});
+    const surface ball = quadric_patch(FPT_PATCH_ELLIPSOID, standard_axes, {1, 1, 1}, {0, 1}, {-0.5, 0.5});
     CHECK(torus(standard_axes, 3, 1, {0, 2 * pi}, {0, 2 * pi}).is_closed_v());
     CHECK(saddle(standard_axes, 1, 1, {0, 1, 0, 1}).degree_u() == 2 && plane(standard_axes, {0, 1, 0, 1}).degree_u() == 1);
     CHECK(ferguson({0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0}, {}, {}).degree_u() == 3);
@@ -629,6 +629,37 @@ void fairing_and_inspection_are_those_of_the_c_api() {
     check_thrown([&] { footpoint::fair_report(wave, options); }, FPT_INVALID_ARGUMENT, "deviation");
 }
 
+void intersections_are_those_of_the_c_api() {
+    const std::vector<double> ends = {0, 0, 1, 1};
+    const curve a(1, ends, std::vector<double>{0, 0, 0, 2, 2, 0}), b(1, ends, std::vector<double>{0, 2, 0, 2, 0, 0});
+    const auto crossing = footpoint::intersect(a, b);
+    CHECK(crossing.hits.size() == 1 && crossing.undecided.empty() && crossing.hits[0].multiplicity == 1);
+    const surface flat(1, 1, ends, ends, std::vector<double>{0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0});
+    const curve rod(1, ends, std::vector<double>{0.25, 0.5, -1, 0.25, 0.5, 1});
+    const auto through = footpoint::intersect(flat, rod);
+    CHECK(through.hits.size() == 1);
+    CHECK_NEAR(through.hits.at(0).w, 0.5, 1e-15);
+    CHECK(footpoint::intersect(rod, footpoint::quadric::plane({0, 0, 0.5}, {0, 0, 1})).hits.size() == 1);
+    const std::vector<footpoint::quadric> cuts = {footpoint::quadric::cylinder({0.5, 0.5, 3}, {0, 0, 1}, 0.25),
+                                                  footpoint::quadric::plane({0, 0, 0}, {0, 0, 1}),
+                                                  footpoint::quadric::cone({0.5, 0.5, 1}, {0, 0, 1}, 0.25)};
+    const auto sections = footpoint::sections(flat, cuts);
+    CHECK(sections.size() == 3 && sections[0].branches.size() == 1 && sections[1].regions.size() == 1);
+    CHECK(sections[0].branches.at(0).head.ends[0] == FPT_END_CLOSED);
+    for (const auto &p : sections[2].branches.at(0).points) CHECK_NEAR(std::hypot(p[0] - 0.5, p[1] - 0.5), 0.25, 1e-14);
+    const auto rings = footpoint::conics(footpoint::quadric::sphere({0, 0, 0}, 1), footpoint::quadric::sphere({1, 0, 0}, 1), 1e-9);
+    CHECK(rings.size() == 1 && rings.at(0).kind == FPT_CONIC_ELLIPSE);
+    const footpoint::caster caster(flat);
+    const std::vector<double> origins = {0.5, 0.5, 5, 3, 3, 3}, down = {0, 0, -2, 0, 0, -2};
+    const auto first = caster.first(origins, down);
+    CHECK(first.size() == 2 && first[0].count == 1 && first[1].count == 0);
+    CHECK_NEAR(first[0].t, 5, 1e-15);
+    const auto all = caster.all(origins, down);
+    CHECK(all.size() == 2 && all[0].size() == 1 && all[1].empty() && all[0][0].t == first[0].t);
+    check_thrown([&] { caster.first(origins, std::vector<double>{1}); }, FPT_INVALID_ARGUMENT, "directions");
+    check_thrown([&] { footpoint::conics(cuts[0], cuts[0], 1e-9); }, FPT_UNSUPPORTED, "same");
+}
+
 void versions_agree() {
     CHECK(footpoint::version() == FPT_VERSION && footpoint::abi_version() == FPT_ABI_VERSION);
 }
@@ -679,6 +710,7 @@ int main() {
     RUN(pcurves_and_faces_are_those_of_the_c_api);
     RUN(surfaces_meet_in_branches);
     RUN(fairing_and_inspection_are_those_of_the_c_api);
+    RUN(intersections_are_those_of_the_c_api);
     RUN(versions_agree);
     return check_report("wrapper");
 }

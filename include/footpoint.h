@@ -579,32 +579,32 @@ typedef enum fpt_arc_form {
 /**
  * Quadrics with an axis, for fpt_surface_quadric: distance from the axis and height along the profile's parameter t.
  */
-typedef enum fpt_quadric {
+typedef enum fpt_quadric_patch {
     /**
      * cos t, sin t: t is a latitude.
      */
-    FPT_QUADRIC_ELLIPSOID = 0,
+    FPT_PATCH_ELLIPSOID = 0,
     /**
      * cosh t, sinh t: hyperboloid of one sheet.
      */
-    FPT_QUADRIC_ONE_SHEET = 1,
+    FPT_PATCH_ONE_SHEET = 1,
     /**
      * sinh t, cosh t: half a hyperboloid of two sheets, t >= 0.
      */
-    FPT_QUADRIC_TWO_SHEETS = 2,
+    FPT_PATCH_TWO_SHEETS = 2,
     /**
      * t, t^2: elliptic paraboloid, t >= 0.
      */
-    FPT_QUADRIC_PARABOLOID = 3,
+    FPT_PATCH_PARABOLOID = 3,
     /**
      * t, t: elliptic cone, t >= 0.
      */
-    FPT_QUADRIC_CONE = 4,
+    FPT_PATCH_CONE = 4,
     /**
      * 1, t: elliptic cylinder.
      */
-    FPT_QUADRIC_CYLINDER = 5,
-} fpt_quadric;
+    FPT_PATCH_CYLINDER = 5,
+} fpt_quadric_patch;
 
 /**
  * Bits of fpt_deviation.flags.
@@ -858,6 +858,102 @@ typedef enum fpt_direction {
 } fpt_direction;
 
 /**
+ * What a fpt_quadric is.
+ */
+typedef enum fpt_quadric_kind {
+    /**
+     * Through `origin`, across `axis`.
+     */
+    FPT_QUADRIC_PLANE = 0,
+    /**
+     * About `origin`, with radius `size`.
+     */
+    FPT_QUADRIC_SPHERE = 1,
+    /**
+     * Infinite, about the line through `origin` along `axis`, with radius `size`.
+     */
+    FPT_QUADRIC_CYLINDER = 2,
+    /**
+     * Infinite on both sides of its apex `origin`, about `axis`; `size` is the radius per unit of height.
+     */
+    FPT_QUADRIC_CONE = 3,
+    /**
+     * y.A y + 2 b.y + c = 0 with y = x - origin, from `matrix`, `linear` and `constant`.
+     */
+    FPT_QUADRIC_GENERAL = 4,
+} fpt_quadric_kind;
+
+/**
+ * How two shapes meet, for fpt_curve_hit.nature.
+ */
+typedef enum fpt_hit_nature {
+    /**
+     * At an angle.
+     */
+    FPT_HIT_TRANSVERSAL = 0,
+    /**
+     * They touch.
+     */
+    FPT_HIT_TANGENTIAL = 1,
+    /**
+     * They run together.
+     */
+    FPT_HIT_OVERLAP = 2,
+} fpt_hit_nature;
+
+/**
+ * The bits of fpt_ray_hit.flags.
+ */
+typedef enum fpt_ray_flag {
+    /**
+     * The ray touches the surface, or the angle is too small to tell.
+     */
+    FPT_RAY_TANGENTIAL = 1,
+    /**
+     * The hit is on a border of the domain.
+     */
+    FPT_RAY_EDGE = 2,
+    /**
+     * The ray runs in the surface: a point of that piece.
+     */
+    FPT_RAY_OVERLAP = 4,
+    /**
+     * Hits may be missing.
+     */
+    FPT_RAY_NOT_PROVEN = 8,
+    /**
+     * Origin, direction or reach are not numbers, too large, or the direction is 0.
+     */
+    FPT_RAY_BAD_RAY = 16,
+} fpt_ray_flag;
+
+/**
+ * What a fpt_conic is.
+ */
+typedef enum fpt_conic_kind {
+    /**
+     * center + t axes[0].
+     */
+    FPT_CONIC_LINE = 0,
+    /**
+     * center + lengths[0] cos t axes[0] + lengths[1] sin t axes[1]; a circle when both lengths are the same.
+     */
+    FPT_CONIC_ELLIPSE = 1,
+    /**
+     * center +- lengths[0] cosh t axes[0] + lengths[1] sinh t axes[1].
+     */
+    FPT_CONIC_HYPERBOLA = 2,
+    /**
+     * center + t^2 / (4 lengths[0]) axes[0] + t axes[1].
+     */
+    FPT_CONIC_PARABOLA = 3,
+    /**
+     * The point center.
+     */
+    FPT_CONIC_POINT = 4,
+} fpt_conic_kind;
+
+/**
  * All numbers from `low` to `high`.
  */
 typedef struct Interval Interval;
@@ -869,12 +965,22 @@ typedef struct Interval Interval;
 typedef struct fpt_arc_length fpt_arc_length;
 
 /**
+ * A surface prepared for rays. Immutable; keeps what it needs of the surface. Owned by the caller, released by fpt_caster_free.
+ */
+typedef struct fpt_caster fpt_caster;
+
+/**
  * A curve. Immutable: any number of threads may use one at a time. The search index is built on first
  * use, by one thread while the others wait. Made by fpt_curve_new or fpt_curve_from_callback, owned by the
  * caller, released by fpt_curve_free. A curve from a callback has no degree, knots, poles and weights:
  * functions that need them return FPT_UNSUPPORTED.
  */
 typedef struct fpt_curve fpt_curve;
+
+/**
+ * Where a curve meets another shape. Immutable; owned by the caller, released by fpt_curve_hits_free.
+ */
+typedef struct fpt_curve_hits fpt_curve_hits;
 
 /**
  * A face prepared for queries: a surface and loops of pcurves. Immutable: any number of threads may use one at a time. Owned by the
@@ -906,6 +1012,11 @@ typedef struct fpt_inspect_set fpt_inspect_set;
 typedef struct fpt_pcurve_set fpt_pcurve_set;
 
 /**
+ * The hits of many rays. Immutable; owned by the caller, released by fpt_ray_hits_free.
+ */
+typedef struct fpt_ray_hits fpt_ray_hits;
+
+/**
  * A monotone function of one parameter on an interval, with its inverse. Immutable: any number of threads may use one at a time.
  * Owned by the caller, released by fpt_relation_free.
  */
@@ -917,6 +1028,11 @@ typedef struct fpt_relation fpt_relation;
  * made from: these may be freed before or after it.
  */
 typedef struct fpt_scene fpt_scene;
+
+/**
+ * Sections of a surface, one per plane or quadric. Immutable; owned by the caller, released by fpt_sections_free.
+ */
+typedef struct fpt_sections fpt_sections;
 
 /**
  * The surface under a face. Immutable: any number of threads may use one at a time. Owned by the caller, released by
@@ -2806,6 +2922,262 @@ typedef struct fpt_inspect_continuity {
      */
     uint64_t intervals;
 } fpt_inspect_continuity;
+
+/**
+ * How intersections are computed. Fill it with fpt_hit_options_init, then change what matters. All zero after struct_size
+ * is the default of everything. Grows at the end only.
+ */
+typedef struct fpt_hit_options {
+    /**
+     * sizeof(fpt_hit_options), set by fpt_hit_options_init.
+     */
+    size_t struct_size;
+    /**
+     * Length, finite, >= 0. Curves: places farther apart do not meet. Sections: what is smaller is not taken apart. 0: 1e-7 x
+     * the diagonal of the (larger) box.
+     */
+    double tolerance;
+    /**
+     * Length, finite, >= 0: most distance of a branch from its polyline. 0: 1e-4 x the diagonal of the box.
+     */
+    double chord;
+    /**
+     * Most boxes; 0: the default, 1,000,000 for curves, 200,000 for a section.
+     */
+    uint64_t budget;
+    /**
+     * Threads of sections and rays; 0: all cores, 1: the calling thread only. The answers do not depend on it.
+     */
+    uint32_t threads;
+    /**
+     * Must be 0.
+     */
+    uint32_t reserved;
+    /**
+     * Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED. NULL: never.
+     */
+    int (*should_stop)(void *user);
+    /**
+     * Told on the calling thread how many of all sections or rays are done. NULL: not wanted.
+     */
+    void (*progress)(void *user, size_t done, size_t total);
+    /**
+     * Handed to the callbacks as it is.
+     */
+    void *user;
+} fpt_hit_options;
+
+/**
+ * A plane or a quadric in implicit form: 144 bytes, frozen. Fields that its kind does not name are not read.
+ */
+typedef struct fpt_quadric {
+    /**
+     * A value of fpt_quadric_kind.
+     */
+    uint32_t kind;
+    /**
+     * Must be 0.
+     */
+    uint32_t reserved;
+    /**
+     * A point: see the kind.
+     */
+    double origin[3];
+    /**
+     * A direction of any length but 0.
+     */
+    double axis[3];
+    /**
+     * A radius, or a cone's radius per unit of height.
+     */
+    double size;
+    /**
+     * A as xx, xy, xz, yy, yz, zz.
+     */
+    double matrix[6];
+    /**
+     * b.
+     */
+    double linear[3];
+    /**
+     * c.
+     */
+    double constant;
+} fpt_quadric;
+
+/**
+ * Where a curve meets a curve, a surface or a quadric: 112 bytes, frozen.
+ */
+typedef struct fpt_curve_hit {
+    /**
+     * Parameter of the first curve, or first one of the surface; 0 for a quadric.
+     */
+    double u;
+    /**
+     * Second parameter of the surface, else 0.
+     */
+    double v;
+    /**
+     * Parameter of the (second) curve.
+     */
+    double w;
+    /**
+     * The first shape there; for a quadric the curve.
+     */
+    double point[3];
+    /**
+     * Distance between both there.
+     */
+    double distance;
+    /**
+     * Interval of u around the hit: outside of the intervals of all hits, and of the undecided boxes, the shapes are farther
+     * apart than the tolerance.
+     */
+    double u_range[2];
+    /**
+     * The same for v.
+     */
+    double v_range[2];
+    /**
+     * The same for w; of an overlap, where they run together (outer).
+     */
+    double w_range[2];
+    /**
+     * A value of fpt_hit_nature.
+     */
+    uint32_t nature;
+    /**
+     * 1 at an angle; where they touch 2 when they stay on one side, 3 when they cross; 0 along an overlap.
+     */
+    uint32_t multiplicity;
+} fpt_curve_hit;
+
+/**
+ * A branch of a section: 24 bytes, frozen.
+ */
+typedef struct fpt_branch {
+    /**
+     * Number of its points.
+     */
+    size_t point_count;
+    /**
+     * Values of fpt_branch_end.
+     */
+    uint32_t ends[2];
+    /**
+     * 1: the surfaces touch all along it.
+     */
+    uint32_t tangential;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} fpt_branch;
+
+/**
+ * A single point of a section: 56 bytes, frozen.
+ */
+typedef struct fpt_section_point {
+    /**
+     * First parameter.
+     */
+    double u;
+    /**
+     * Second parameter.
+     */
+    double v;
+    /**
+     * The surface there.
+     */
+    double point[3];
+    /**
+     * About the distance from the quadric.
+     */
+    double distance;
+    /**
+     * Number of branches that meet here; 0: an isolated point of contact.
+     */
+    uint32_t arms;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} fpt_section_point;
+
+/**
+ * A part of the domain in a section: 40 bytes, frozen.
+ */
+typedef struct fpt_section_region {
+    /**
+     * u0, u1, v0, v1.
+     */
+    double domain[4];
+    /**
+     * 1: the surface lies in the quadric; 0: not decided, branches may be missing here.
+     */
+    uint32_t overlaps;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+} fpt_section_region;
+
+/**
+ * A conic in space: 96 bytes, frozen.
+ */
+typedef struct fpt_conic {
+    /**
+     * A value of fpt_conic_kind.
+     */
+    uint32_t kind;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
+    /**
+     * Centre, vertex, or a point.
+     */
+    double center[3];
+    /**
+     * Two unit vectors, one after the other; unused ones 0.
+     */
+    double axes[6];
+    /**
+     * Half lengths, or the focal length; unused ones 0.
+     */
+    double lengths[2];
+} fpt_conic;
+
+/**
+ * A hit of a ray and a surface: 56 bytes, frozen. A ray without a hit has t infinite, NaN in u, v and point, and count 0; a ray
+ * that was not reached when should_stop ended the call has t NaN and FPT_RAY_NOT_PROVEN.
+ */
+typedef struct fpt_ray_hit {
+    /**
+     * Length along the ray from its origin.
+     */
+    double t;
+    /**
+     * First parameter, in the domain.
+     */
+    double u;
+    /**
+     * Second parameter, in the domain.
+     */
+    double v;
+    /**
+     * The surface at (u,v), bit for bit what _evaluate returns there.
+     */
+    double point[3];
+    /**
+     * Sum of fpt_ray_flag values.
+     */
+    uint32_t flags;
+    /**
+     * fpt_caster_first: the number of all hits of the ray; in a list 1.
+     */
+    uint32_t count;
+} fpt_ray_hit;
 
 #ifdef __cplusplus
 extern "C" {
@@ -5285,7 +5657,7 @@ void fpt_sweep_options_init(struct fpt_sweep_options *options, size_t struct_siz
 /**
  * The part of a quadric between two angles about its axis (u, over [0, 1]) and two parameters of its profile (v).
  *
- * @param kind       a value of fpt_quadric
+ * @param kind       a value of fpt_quadric_patch
  * @param axes       as fpt_curve_arc
  * @param semi_axes  3 numbers more than 0: across along X, across along Y, along the axis
  * @param angles     begin and end in radians, at most a turn
@@ -6843,6 +7215,322 @@ fpt_status fpt_inspect_picture(const struct fpt_surface *surface,
                                size_t capacity,
                                uint8_t *out_pixels,
                                double *out_range);
+
+/**
+ * Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.
+ * Does nothing when `options` is NULL or struct_size is smaller than a size_t.
+ * @since 0.1
+ */
+void fpt_hit_options_init(struct fpt_hit_options *options, size_t struct_size);
+
+/**
+ * Where two curves meet: crossings, contacts and overlaps, with proof that none is missing: everything else of the two is
+ * farther apart than the tolerance. Hits come in the order of w, the parameter of `other`; u is that of `curve`. Where both are
+ * closed, a hit on a seam is told once.
+ *
+ * Cost: microseconds a crossing and pair of segments whose boxes meet; an overlap takes about length / sqrt(tolerance x
+ * radius of curvature) boxes.
+ *
+ * @param options  tolerance, budget, should_stop and user count; NULL: the defaults
+ * @param out      the hits; release them with fpt_curve_hits_free
+ * @return FPT_BUDGET_EXHAUSTED with hits that miss what lies in the undecided boxes
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_intersect_curves(const struct fpt_curve *curve,
+                                const struct fpt_curve *other,
+                                const struct fpt_hit_options *options,
+                                struct fpt_curve_hits **out);
+
+/**
+ * Where a curve meets a surface: as fpt_intersect_curves; u, v are the surface's parameters, w the curve's.
+ *
+ * @param options  as for fpt_intersect_curves
+ * @param out      the hits; release them with fpt_curve_hits_free
+ * @return as fpt_intersect_curves
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_intersect_surface_curve(const struct fpt_surface *surface,
+                                       const struct fpt_curve *curve,
+                                       const struct fpt_hit_options *options,
+                                       struct fpt_curve_hits **out);
+
+/**
+ * Where a curve meets a plane or a quadric in implicit form: the zeros of a polynomial, none missing; w is the curve's parameter.
+ *
+ * @param quadric  one plane or quadric
+ * @param options  as for fpt_intersect_curves; the tolerance decides what lies in the quadric (a 64th of it)
+ * @param out      the hits; release them with fpt_curve_hits_free
+ * @return as fpt_intersect_curves
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_intersect_curve_quadric(const struct fpt_curve *curve,
+                                       const struct fpt_quadric *quadric,
+                                       const struct fpt_hit_options *options,
+                                       struct fpt_curve_hits **out);
+
+/**
+ * The number of hits.
+ * @since 0.1
+ */
+FPT_MUST_USE fpt_status fpt_curve_hits_count(const struct fpt_curve_hits *hits, size_t *out_count);
+
+/**
+ * A hit.
+ *
+ * @param index  below the count, else FPT_INVALID_ARGUMENT
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_hits_get(const struct fpt_curve_hits *hits,
+                              size_t index,
+                              struct fpt_curve_hit *out);
+
+/**
+ * The number of boxes that are undecided: 0 when the hits are complete.
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_hits_undecided_count(const struct fpt_curve_hits *hits,
+                                          size_t *out_count);
+
+/**
+ * A box that is undecided: more hits may lie in it.
+ *
+ * @param index    below the count, else FPT_INVALID_ARGUMENT
+ * @param out_uvw  6 numbers: start and end of u, of v, of w
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_hits_undecided_get(const struct fpt_curve_hits *hits,
+                                        size_t index,
+                                        double *out_uvw);
+
+/**
+ * Releases hits. NULL is fine. No other call may use the handle during or after this one.
+ * @since 0.1
+ */
+void fpt_curve_hits_free(struct fpt_curve_hits *hits);
+
+/**
+ * Sections of a surface by planes or quadrics: all branches of each, small loops too, with proof; isolated points of contact,
+ * points where branches meet, parts that lie in the quadric, and boxes that could not be decided.
+ *
+ * Points of branches lie on the surface and, to rounding, on the quadric (branches with tangential 1: to the root of it along
+ * the surface). A stack of parallel planes gives contour lines.
+ *
+ * @param quadrics  `count` planes or quadrics
+ * @param count     at least 1
+ * @param options   NULL: the defaults
+ * @param out       the sections, in the order of the quadrics; release them with fpt_sections_free
+ * @return FPT_BUDGET_EXHAUSTED with sections of which some miss what lies in their undecided regions
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_intersect_surface_quadrics(const struct fpt_surface *surface,
+                                          const struct fpt_quadric *quadrics,
+                                          size_t count,
+                                          const struct fpt_hit_options *options,
+                                          struct fpt_sections **out);
+
+/**
+ * The numbers of branches, of single points and of regions of a section.
+ *
+ * @param out_counts  3 numbers
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_sections_counts(const struct fpt_sections *sections,
+                               size_t section,
+                               size_t *out_counts);
+
+/**
+ * A branch of a section.
+ *
+ * @param index  below the number of branches, else FPT_INVALID_ARGUMENT
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_sections_branch_get(const struct fpt_sections *sections,
+                                   size_t section,
+                                   size_t index,
+                                   struct fpt_branch *out);
+
+/**
+ * The points of a branch in order; a loop ends with the point that it begins with. Where a branch crosses a seam two points with the same
+ * place and different parameters follow each other.
+ *
+ * @param capacity  numbers that fit into `out`; at least 5 x point_count, else FPT_INVALID_ARGUMENT
+ * @param out       x, y, z, u, v of each point
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_sections_branch_points(const struct fpt_sections *sections,
+                                      size_t section,
+                                      size_t index,
+                                      size_t capacity,
+                                      double *out);
+
+/**
+ * A single point of a section: the contacts first, then the points where branches meet.
+ *
+ * @param index  below the number of single points, else FPT_INVALID_ARGUMENT
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_sections_point_get(const struct fpt_sections *sections,
+                                  size_t section,
+                                  size_t index,
+                                  struct fpt_section_point *out);
+
+/**
+ * A region of a section: those in which the surface lies in the quadric first, then the undecided ones.
+ *
+ * @param index  below the number of regions, else FPT_INVALID_ARGUMENT
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_sections_region_get(const struct fpt_sections *sections,
+                                   size_t section,
+                                   size_t index,
+                                   struct fpt_section_region *out);
+
+/**
+ * Releases sections. NULL is fine. No other call may use the handle during or after this one.
+ * @since 0.1
+ */
+void fpt_sections_free(struct fpt_sections *sections);
+
+/**
+ * Where two planes or quadrics meet, when that is made of conics: circles, ellipses, lines and so on in closed form.
+ *
+ * @param first      a plane or quadric
+ * @param second     another one
+ * @param tolerance  length, finite, > 0: points of the conics lie within it of both
+ * @param out        room for 4 conics, of which the first `out_count` are written
+ * @param out_count  number of conics; 0: they do not meet
+ * @return FPT_UNSUPPORTED when both are the same, or meet in a curve that is not made of conics: then take one as a surface and
+ *         its section by the other
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_intersect_quadrics(const struct fpt_quadric *first,
+                                  const struct fpt_quadric *second,
+                                  double tolerance,
+                                  struct fpt_conic *out,
+                                  size_t *out_count);
+
+/**
+ * Prepares a surface for rays: its patches are cut into cells that a line crosses at most once. Cost: some microseconds a
+ * cell, of which a patch has 4 to 64, as a rule.
+ *
+ * @param options  should_stop and user count; NULL: the defaults
+ * @param out      the caster; release it with fpt_caster_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_caster_new(const struct fpt_surface *surface,
+                          const struct fpt_hit_options *options,
+                          struct fpt_caster **out);
+
+/**
+ * Releases a caster. NULL is fine. No other call may use the handle during or after this one.
+ * @since 0.1
+ */
+void fpt_caster_free(struct fpt_caster *caster);
+
+/**
+ * The first hit of each ray, with the number of all its hits: proven, unless its flags have FPT_RAY_NOT_PROVEN. A bad ray
+ * marks its own record. The bits do not depend on the threads.
+ *
+ * @param origins     x,y,z of `count` origins
+ * @param directions  x,y,z of `count` directions of any length but 0
+ * @param count       may be 0
+ * @param reach       2 numbers: least and greatest length along each ray that counts, infinities allowed (a line: both); NULL: from
+ *                    the origin on
+ * @param options     threads, should_stop, progress and user count; NULL: the defaults
+ * @param out         `count` records
+ * @return FPT_CANCELLED when should_stop said so; then records not reached have t NaN and FPT_RAY_NOT_PROVEN
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_caster_first(const struct fpt_caster *caster,
+                            const double *origins,
+                            const double *directions,
+                            size_t count,
+                            const double *reach,
+                            const struct fpt_hit_options *options,
+                            struct fpt_ray_hit *out);
+
+/**
+ * All hits of each ray, in the order along it.
+ *
+ * @param origins     as for fpt_caster_first
+ * @param directions  as for fpt_caster_first
+ * @param count       as for fpt_caster_first
+ * @param reach       as for fpt_caster_first
+ * @param options     as for fpt_caster_first
+ * @param out         the hits; release them with fpt_ray_hits_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_caster_all(const struct fpt_caster *caster,
+                          const double *origins,
+                          const double *directions,
+                          size_t count,
+                          const double *reach,
+                          const struct fpt_hit_options *options,
+                          struct fpt_ray_hits **out);
+
+/**
+ * The number of all hits.
+ * @since 0.1
+ */
+FPT_MUST_USE fpt_status fpt_ray_hits_count(const struct fpt_ray_hits *hits, size_t *out_count);
+
+/**
+ * All hits, ray by ray.
+ *
+ * @param capacity  records that fit into `out`; at least the number of hits, else FPT_INVALID_ARGUMENT
+ * @param out       the hits
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_ray_hits_get(const struct fpt_ray_hits *hits,
+                            size_t capacity,
+                            struct fpt_ray_hit *out);
+
+/**
+ * Where the hits of each ray begin: those of ray k are numbers starts[k] to starts[k+1] - 1.
+ *
+ * @param capacity  numbers that fit into `out`; at least the number of rays + 1, else FPT_INVALID_ARGUMENT
+ * @param out       the starts, as many as rays + 1
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_ray_hits_starts(const struct fpt_ray_hits *hits,
+                               size_t capacity,
+                               size_t *out);
+
+/**
+ * Flags of each ray: FPT_RAY_NOT_PROVEN where hits may be missing, FPT_RAY_BAD_RAY.
+ *
+ * @param capacity  numbers that fit into `out`; at least the number of rays, else FPT_INVALID_ARGUMENT
+ * @param out       the flags, one number a ray
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_ray_hits_flags(const struct fpt_ray_hits *hits,
+                              size_t capacity,
+                              uint32_t *out);
+
+/**
+ * Releases hits. NULL is fine. No other call may use the handle during or after this one.
+ * @since 0.1
+ */
+void fpt_ray_hits_free(struct fpt_ray_hits *hits);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -2001,8 +2001,8 @@ inline curve hyperbola(const axes &place, double radius_x, double radius_y, doub
     check(fpt_curve_hyperbola(place.data(), radius_x, radius_y, start, end, &out));
     return curve(out);
 }
-/** As fpt_surface_quadric; kind is a value of fpt_quadric. */
-inline surface quadric(std::uint32_t kind, const axes &place, const std::array<double, 3> &semi_axes,
+/** As fpt_surface_quadric; kind is a value of fpt_quadric_patch. */
+inline surface quadric_patch(std::uint32_t kind, const axes &place, const std::array<double, 3> &semi_axes,
                        const std::array<double, 2> &angles, const std::array<double, 2> &profile,
                        std::uint32_t form = FPT_ARC_QUARTERS) {
     fpt_surface *out = nullptr;
@@ -2364,6 +2364,185 @@ inline std::vector<std::uint8_t> picture(const surface &shape, const fpt_inspect
     check(fpt_inspect_picture(shape.get(), &options, out.size(), out.data(), nullptr));
     return out;
 }
+
+/** fpt_hit_options that begin as the defaults. */
+struct hit_options : fpt_hit_options {
+    hit_options() noexcept : fpt_hit_options() { fpt_hit_options_init(this, sizeof(fpt_hit_options)); }
+};
+
+/** A plane or quadric: fpt_quadric with constructors. */
+struct quadric : fpt_quadric {
+    static quadric plane(const point &origin, const point &normal) { return made(FPT_QUADRIC_PLANE, origin, normal, 0); }
+    static quadric sphere(const point &center, double radius) { return made(FPT_QUADRIC_SPHERE, center, point{}, radius); }
+    static quadric cylinder(const point &origin, const point &axis, double radius) {
+        return made(FPT_QUADRIC_CYLINDER, origin, axis, radius);
+    }
+    /** slope: radius per unit of height. */
+    static quadric cone(const point &apex, const point &axis, double slope) {
+        return made(FPT_QUADRIC_CONE, apex, axis, slope);
+    }
+
+private:
+    static quadric made(std::uint32_t kind, const point &origin, const point &axis, double size) {
+        quadric out{};
+        out.kind = kind;
+        out.size = size;
+        for (std::size_t k = 0; k < 3; k++) {
+            out.origin[k] = origin[k];
+            out.axis[k] = axis[k];
+        }
+        return out;
+    }
+};
+
+/** Where a curve meets another shape. */
+struct curve_hits {
+    std::vector<fpt_curve_hit> hits;
+    /** Boxes u0,u1,v0,v1,w0,w1 that are undecided: more hits may lie in them. */
+    std::vector<std::array<double, 6>> undecided;
+};
+
+/** A branch of a section. */
+struct branch {
+    fpt_branch head;
+    /** x,y,z,u,v of each point. */
+    std::vector<std::array<double, 5>> points;
+};
+
+/** Where a surface meets a plane or quadric. */
+struct section {
+    std::vector<branch> branches;
+    std::vector<fpt_section_point> points;
+    std::vector<fpt_section_region> regions;
+};
+
+namespace detail {
+
+template <class Call>
+curve_hits hits(Call call) {
+    fpt_curve_hits *handle = nullptr;
+    const fpt_status status = call(&handle);
+    if (status != FPT_BUDGET_EXHAUSTED) check(status);
+    const std::unique_ptr<fpt_curve_hits, void (*)(fpt_curve_hits *)> owner(handle, fpt_curve_hits_free);
+    curve_hits out;
+    std::size_t count = 0;
+    check(fpt_curve_hits_count(handle, &count));
+    out.hits.resize(count);
+    for (std::size_t k = 0; k < count; k++) check(fpt_curve_hits_get(handle, k, &out.hits[k]));
+    check(fpt_curve_hits_undecided_count(handle, &count));
+    out.undecided.resize(count);
+    for (std::size_t k = 0; k < count; k++) check(fpt_curve_hits_undecided_get(handle, k, out.undecided[k].data()));
+    return out;
+}
+
+inline section read_section(const fpt_sections *all, std::size_t number) {
+    section out;
+    std::array<std::size_t, 3> counts{};
+    check(fpt_sections_counts(all, number, counts.data()));
+    out.branches.resize(counts[0]);
+    out.points.resize(counts[1]);
+    out.regions.resize(counts[2]);
+    for (std::size_t k = 0; k < counts[0]; k++) {
+        branch &one = out.branches[k];
+        check(fpt_sections_branch_get(all, number, k, &one.head));
+        one.points.resize(one.head.point_count);
+        check(fpt_sections_branch_points(all, number, k, 5 * one.points.size(), one.points.front().data()));
+    }
+    for (std::size_t k = 0; k < counts[1]; k++) check(fpt_sections_point_get(all, number, k, &out.points[k]));
+    for (std::size_t k = 0; k < counts[2]; k++) check(fpt_sections_region_get(all, number, k, &out.regions[k]));
+    return out;
+}
+
+} // namespace detail
+
+/** As fpt_intersect_curves. */
+inline curve_hits intersect(const curve &first, const curve &second, const fpt_hit_options &options = hit_options()) {
+    return detail::hits([&](fpt_curve_hits **out) { return fpt_intersect_curves(first.get(), second.get(), &options, out); });
+}
+/** As fpt_intersect_surface_curve. */
+inline curve_hits intersect(const surface &first, const curve &second, const fpt_hit_options &options = hit_options()) {
+    return detail::hits(
+        [&](fpt_curve_hits **out) { return fpt_intersect_surface_curve(first.get(), second.get(), &options, out); });
+}
+/** As fpt_intersect_curve_quadric. */
+inline curve_hits intersect(const curve &first, const fpt_quadric &second, const fpt_hit_options &options = hit_options()) {
+    return detail::hits(
+        [&](fpt_curve_hits **out) { return fpt_intersect_curve_quadric(first.get(), &second, &options, out); });
+}
+/** As fpt_intersect_surface_quadrics: one section per quadric. */
+inline std::vector<section> sections(const surface &shape, span<const quadric> quadrics,
+                                     const fpt_hit_options &options = hit_options()) {
+    static_assert(sizeof(quadric) == sizeof(fpt_quadric), "a quadric adds nothing");
+    fpt_sections *handle = nullptr;
+    const fpt_status status =
+        fpt_intersect_surface_quadrics(shape.get(), quadrics.data(), quadrics.size(), &options, &handle);
+    if (status != FPT_BUDGET_EXHAUSTED) check(status);
+    const std::unique_ptr<fpt_sections, void (*)(fpt_sections *)> owner(handle, fpt_sections_free);
+    std::vector<section> out;
+    for (std::size_t k = 0; k < quadrics.size(); k++) out.push_back(detail::read_section(handle, k));
+    return out;
+}
+/** As fpt_intersect_quadrics. */
+inline std::vector<fpt_conic> conics(const fpt_quadric &first, const fpt_quadric &second, double tolerance) {
+    std::vector<fpt_conic> out(4);
+    std::size_t count = 0;
+    check(fpt_intersect_quadrics(&first, &second, tolerance, out.data(), &count));
+    out.resize(count);
+    return out;
+}
+
+/** A surface prepared for rays: owner of an fpt_caster. */
+class caster {
+public:
+    /** As fpt_caster_new. */
+    explicit caster(const surface &shape, const fpt_hit_options &options = hit_options()) {
+        fpt_caster *handle = nullptr;
+        check(fpt_caster_new(shape.get(), &options, &handle));
+        handle_.reset(handle);
+    }
+    /** The handle, still owned here. */
+    const fpt_caster *get() const noexcept { return handle_.get(); }
+
+    /** As fpt_caster_first: origins and directions as x,y,z each. */
+    std::vector<fpt_ray_hit> first(span<const double> origins, span<const double> directions,
+                                   const reach &part = {0, std::numeric_limits<double>::infinity()},
+                                   const fpt_hit_options &options = hit_options()) const {
+        std::vector<fpt_ray_hit> out(count_of(origins, directions));
+        check(fpt_caster_first(get(), origins.data(), directions.data(), out.size(), part.data(), &options, out.data()));
+        return out;
+    }
+    /** As fpt_caster_all: the hits of each ray. */
+    std::vector<std::vector<fpt_ray_hit>> all(span<const double> origins, span<const double> directions,
+                                              const reach &part = {0, std::numeric_limits<double>::infinity()},
+                                              const fpt_hit_options &options = hit_options()) const {
+        const std::size_t count = count_of(origins, directions);
+        fpt_ray_hits *handle = nullptr;
+        check(fpt_caster_all(get(), origins.data(), directions.data(), count, part.data(), &options, &handle));
+        const std::unique_ptr<fpt_ray_hits, void (*)(fpt_ray_hits *)> owner(handle, fpt_ray_hits_free);
+        std::size_t total = 0;
+        check(fpt_ray_hits_count(handle, &total));
+        std::vector<fpt_ray_hit> hits(total);
+        std::vector<std::size_t> starts(count + 1);
+        check(fpt_ray_hits_get(handle, total, hits.data()));
+        check(fpt_ray_hits_starts(handle, starts.size(), starts.data()));
+        std::vector<std::vector<fpt_ray_hit>> out(count);
+        for (std::size_t k = 0; k < count; k++)
+            out[k].assign(hits.begin() + std::ptrdiff_t(starts[k]), hits.begin() + std::ptrdiff_t(starts[k + 1]));
+        return out;
+    }
+
+private:
+    static std::size_t count_of(span<const double> origins, span<const double> directions) {
+        detail::require(origins.size() == directions.size() && origins.size() % 3 == 0,
+                        "directions: need x,y,z for each origin");
+        return origins.size() / 3;
+    }
+    struct deleter {
+        void operator()(fpt_caster *handle) const noexcept { fpt_caster_free(handle); }
+    };
+
+    std::unique_ptr<fpt_caster, deleter> handle_;
+};
 
 } // namespace footpoint
 

@@ -4,7 +4,7 @@
  *   footpoint::occt::curve, surface      a Geom_Curve, Geom_Surface, TopoDS_Edge or TopoDS_Face, asked through footpoint; answers
  *                                        in OCCT's own parameters and types
  *   footpoint::occt::GeomAPI_ProjectPointOnCurve, GeomAPI_ProjectPointOnSurf, ShapeAnalysis_Surface
- *                                        the classes of these names with the same methods; a caller changes its include and
+ *   footpoint::occt::GeomAPI_IntCS       the classes of these names with the same methods; a caller changes its include and
  *                                        writes `using footpoint::occt::GeomAPI_ProjectPointOnSurf;` in its namespace or function
  *
  * What comes how:
@@ -28,6 +28,8 @@
  *   - the lists are complete or IsComplete() is false; nearest first; with borders, saddles, and the apex of a cone. An arc or
  *     region of equally near points is one entry;
  *   - tolerances, precisions and Extrema_ExtAlgo change nothing: every answer is refined to the limit of the arithmetic;
+ *   - GeomAPI_IntCS: points of contact are points too, each place once (also on a seam); segments are where the curve lies in the
+ *     surface within 1e-7. Where both are unbounded, or one is a shape by call, the answer is OCCT's own and IsProven() is false;
  *   - Extrema() is missing: there is no Extrema_ExtPC or Extrema_ExtPS behind. IsProven(), LowerBound(), IsComplete() are new.
  */
 #ifndef FOOTPOINT_OCCT_HXX
@@ -37,9 +39,16 @@
 
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
+#include <BndLib_Add3dCurve.hxx>
+#include <BndLib_AddSurface.hxx>
+#include <Bnd_Box.hxx>
 #include <Extrema_ExtAlgo.hxx>
 #include <Extrema_ExtFlag.hxx>
+#include <GeomAPI_IntCS.hxx>
+#include <GeomAdaptor_Curve.hxx>
+#include <GeomAdaptor_Surface.hxx>
 #include <Geom_BSplineCurve.hxx>
+#include <Geom_TrimmedCurve.hxx>
 #include <Precision.hxx>
 #include <ShapeAnalysis_Surface.hxx>
 #include <Standard_NullObject.hxx>
@@ -742,6 +751,147 @@ private:
 
     std::unique_ptr<surface_intersection> found_;
     std::vector<Handle(Geom_Curve)> lines_;
+};
+
+/** The class of this name, see the head of this file. */
+class GeomAPI_IntCS {
+public:
+    GeomAPI_IntCS() = default;
+    GeomAPI_IntCS(const Handle(Geom_Curve) &C, const Handle(Geom_Surface) &S) { Perform(C, S); }
+
+    void Perform(const Handle(Geom_Curve) &C, const Handle(Geom_Surface) &S) {
+        if (C.IsNull()) throw Standard_NullObject("C: null");
+        if (S.IsNull()) throw Standard_NullObject("S: null");
+        *this = GeomAPI_IntCS();
+        curve_ = C;
+        detail::range w{C->FirstParameter(), C->LastParameter()}, u{}, v{};
+        S->Bounds(u.low, u.high, v.low, v.high);
+        if (!bound(C, S, w, u, v) || !proven(C, S, w, u, v)) own_ = std::make_shared<::GeomAPI_IntCS>(C, S);
+    }
+
+    Standard_Boolean IsDone() const { return !curve_.IsNull() && (!own_ || own_->IsDone()); }
+    Standard_Integer NbPoints() const { return own_ ? own_->NbPoints() : Standard_Integer(done(points_).size()); }
+    const gp_Pnt &Point(const Standard_Integer Index) const { return own_ ? own_->Point(Index) : at(points_, Index).place; }
+    void Parameters(const Standard_Integer Index, Standard_Real &U, Standard_Real &V, Standard_Real &W) const {
+        if (own_) return own_->Parameters(Index, U, V, W);
+        const hit &one = at(points_, Index);
+        U = one.u[0], V = one.v[0], W = one.w[0];
+    }
+    Standard_Integer NbSegments() const { return own_ ? own_->NbSegments() : Standard_Integer(done(segments_).size()); }
+    Handle(Geom_Curve) Segment(const Standard_Integer Index) const {
+        if (own_) return own_->Segment(Index);
+        const hit &one = at(segments_, Index);
+        return new Geom_TrimmedCurve(curve_, one.w[0], one.w[1]);
+    }
+    /** Parameters on the surface at the ends of a segment. */
+    void Parameters(const Standard_Integer Index, Standard_Real &U1, Standard_Real &V1, Standard_Real &U2, Standard_Real &V2) const {
+        if (own_) return own_->Parameters(Index, U1, V1, U2, V2);
+        const hit &one = at(segments_, Index);
+        U1 = one.u[0], V1 = one.v[0], U2 = one.u[1], V2 = one.v[1];
+    }
+
+    /** Whether nothing is missing, with proof. */
+    Standard_Boolean IsProven() const { return IsDone() && !own_ && is_complete_; }
+    /** 1 at an angle, 2 or 3 where they touch; 0 when that is not known. */
+    Standard_Integer Multiplicity(const Standard_Integer Index) const { return own_ ? 0 : at(points_, Index).multiplicity; }
+
+private:
+    struct hit {
+        gp_Pnt place;
+        std::array<Standard_Real, 2> u{}, v{}, w{};
+        Standard_Integer multiplicity = 0;
+    };
+
+    const std::vector<hit> &done(const std::vector<hit> &list) const {
+        if (!IsDone()) throw StdFail_NotDone("GeomAPI_IntCS: nothing was performed");
+        return list;
+    }
+    const hit &at(const std::vector<hit> &list, Standard_Integer index) const {
+        if (index < 1 || std::size_t(index) > done(list).size()) throw Standard_OutOfRange("Index: not between 1 and the number");
+        return list[std::size_t(index - 1)];
+    }
+
+    /** Bounds the one that is not by the box of the other; false when neither is bounded. */
+    static bool bound(const Handle(Geom_Curve) &C, const Handle(Geom_Surface) &S, detail::range &w, detail::range &u, detail::range &v) {
+        const bool open_curve = detail::open(w.low) || detail::open(w.high);
+        const bool open_surface = detail::open(u.low) || detail::open(u.high) || detail::open(v.low) || detail::open(v.high);
+        if (!open_curve && !open_surface) return true;
+        if (open_curve && open_surface) return false;
+        Bnd_Box box;
+        if (open_curve) {
+            BndLib_AddSurface::Add(GeomAdaptor_Surface(S), 0, box);
+        } else {
+            BndLib_Add3dCurve::Add(GeomAdaptor_Curve(C), 0, box);
+        }
+        const gp_Pnt low = box.CornerMin(), high = box.CornerMax();
+        const gp_Pnt centre((low.XYZ() + high.XYZ()) / 2);
+        const Standard_Real reach = 1.001 * low.Distance(high) / 2 + 1e-6;
+        const auto within = [](detail::range &r, Standard_Real middle, Standard_Real by) {
+            r.low = std::max(r.low, middle - by);
+            r.high = std::min(r.high, middle + by);
+            return r.low < r.high;
+        };
+        if (open_curve) {
+            const Handle(Geom_Line) line = Handle(Geom_Line)::DownCast(detail::basis(C));
+            if (line.IsNull()) return false;
+            const gp_Ax1 axis = line->Position();
+            return within(w, gp_Vec(axis.Location(), centre).Dot(gp_Vec(axis.Direction())), reach);
+        }
+        const Handle(Geom_ElementarySurface) form = Handle(Geom_ElementarySurface)::DownCast(detail::basis(S));
+        if (form.IsNull()) return false;
+        const gp_Ax3 place = form->Position();
+        const gp_Vec from(place.Location(), centre);
+        if (form->IsKind(STANDARD_TYPE(Geom_Plane)))
+            return within(u, from.Dot(gp_Vec(place.XDirection())), reach) && within(v, from.Dot(gp_Vec(place.YDirection())), reach);
+        if (form->IsKind(STANDARD_TYPE(Geom_CylindricalSurface))) return within(v, from.Dot(gp_Vec(place.Direction())), reach);
+        const Handle(Geom_ConicalSurface) cone = Handle(Geom_ConicalSurface)::DownCast(form);
+        if (cone.IsNull()) return false;
+        // Along a generatrix heights grow by the cosine of the half angle.
+        const Standard_Real c = std::cos(cone->SemiAngle());
+        return within(v, from.Dot(gp_Vec(place.Direction())) / c, reach / c);
+    }
+
+    bool proven(const Handle(Geom_Curve) &C, const Handle(Geom_Surface) &S, const detail::range &w, const detail::range &u,
+                const detail::range &v) {
+        const auto line = detail::profile_of(detail::basis(C), w);
+        const auto sheet = detail::net_of(detail::plain(detail::basis(S)), u, v);
+        if (!line || !sheet) return false;
+        const auto found = detail::asked([&] {
+            hit_options options;
+            options.tolerance = Precision::Confusion();
+            return intersect(detail::made(*sheet, gp_Trsf()), detail::made(*line, gp_Trsf()), options);
+        });
+        is_complete_ = found.undecided.empty();
+        for (const fpt_curve_hit &one : found.hits) {
+            hit out;
+            out.place = gp_Pnt(one.point[0], one.point[1], one.point[2]);
+            out.multiplicity = Standard_Integer(one.multiplicity);
+            const bool runs = one.nature == FPT_HIT_OVERLAP;
+            for (std::size_t k = 0; k < 2; k++) {
+                out.u[k] = sheet->along[0].to_occt(runs ? one.u_range[k] : one.u);
+                out.v[k] = sheet->along[1].to_occt(runs ? one.v_range[k] : one.v);
+                out.w[k] = line->along.to_occt(runs ? one.w_range[k] : one.w);
+            }
+            if (runs && out.w[1] > out.w[0]) {
+                // Which corner of the box of parameters belongs to which end.
+                const gp_Pnt first = C->Value(out.w[0]);
+                const auto swap_if_nearer = [&](std::array<Standard_Real, 2> &x, const gp_Pnt &here, const gp_Pnt &there) {
+                    if (there.Distance(first) < here.Distance(first)) std::swap(x[0], x[1]);
+                };
+                swap_if_nearer(out.u, S->Value(out.u[0], out.v[0]), S->Value(out.u[1], out.v[0]));
+                swap_if_nearer(out.v, S->Value(out.u[0], out.v[0]), S->Value(out.u[0], out.v[1]));
+                segments_.push_back(out);
+            } else {
+                points_.push_back(out);
+            }
+        }
+        return true;
+    }
+
+    Handle(Geom_Curve) curve_;
+    std::vector<hit> points_, segments_;
+    std::shared_ptr<const ::GeomAPI_IntCS> own_;
+    bool is_complete_ = false;
 };
 
 } // namespace footpoint::occt

@@ -36,7 +36,19 @@ const BITS: u32 = 10;
 const PAUSE: Duration = Duration::from_millis(1);
 
 /// The work of a batch: query number and workspace of the thread to record.
-pub type Work<'a, W> = &'a (dyn Fn(usize, &mut W) -> FootPoint + Sync);
+pub type Work<'a, W, R = FootPoint> = &'a (dyn Fn(usize, &mut W) -> R + Sync);
+
+/// What a query leaves.
+pub trait Record: Copy + Send {
+    /// What a query leaves that was not reached.
+    fn unreached() -> Self;
+}
+
+impl Record for FootPoint {
+    fn unreached() -> Self {
+        Self::unreached()
+    }
+}
 
 /// Where a query is, when queries are to be put in order.
 pub type Place<'a> = &'a (dyn Fn(usize) -> Vector + Sync);
@@ -85,7 +97,10 @@ fn with_own<W: Memory, R>(f: impl FnOnce(&mut W) -> R) -> R {
 }
 
 /// A tile: number of the first query and where its records go.
-type Tile<'a> = (usize, &'a mut [FootPoint]);
+type Tile<'a, R> = (usize, &'a mut [R]);
+
+/// Tiles that wait for the thread that takes them.
+type Dealt<'a, R> = Vec<Mutex<Option<Tile<'a, R>>>>;
 
 #[derive(Default)]
 struct Progress {
@@ -99,12 +114,12 @@ struct Progress {
 ///
 /// # Errors
 /// [`Error::OutOfMemory`] before anything is written. [`Error::Cancelled`] when `poll` said so: records not
-/// reached are [`FootPoint::unreached`].
-pub fn run<W: Memory>(
-    out: &mut [FootPoint],
+/// reached are [`Record::unreached`].
+pub fn run<W: Memory, R: Record>(
+    out: &mut [R],
     threads: usize,
     place: Option<Place>,
-    work: Work<W>,
+    work: Work<W, R>,
     poll: Poll,
 ) -> Result<(), Error> {
     let total = out.len();
@@ -127,8 +142,7 @@ pub fn run<W: Memory>(
     if complete { Ok(()) } else { Err(Error::Cancelled) }
 }
 
-/// Tiles that wait for the thread that takes them.
-fn dealt(out: &mut [FootPoint], size: usize) -> Result<Vec<Mutex<Option<Tile<'_>>>>, Error> {
+fn dealt<R>(out: &mut [R], size: usize) -> Result<Dealt<'_, R>, Error> {
     let mut tiles = Vec::new();
     tiles.try_reserve_exact(out.len().div_ceil(size)).map_err(|_| Error::OutOfMemory)?;
     for (k, records) in out.chunks_mut(size).enumerate() {
@@ -139,11 +153,11 @@ fn dealt(out: &mut [FootPoint], size: usize) -> Result<Vec<Mutex<Option<Tile<'_>
 
 /// Threads that take tiles until none is left, the calling one included: it polls between its groups and while it waits
 /// for the others. A thread that cannot be started leaves its share to the rest.
-fn work_together<W: Memory>(
-    tiles: &[Mutex<Option<Tile>>],
+fn work_together<W: Memory, R: Record>(
+    tiles: &[Mutex<Option<Tile<R>>>],
     threads: usize,
     place: Option<Place>,
-    work: Work<W>,
+    work: Work<W, R>,
     progress: &Progress,
     poll: Poll,
 ) {
@@ -177,11 +191,11 @@ fn work_together<W: Memory>(
     });
 }
 
-fn work_off<W>(
-    (first, records): Tile,
+fn work_off<W, R: Record>(
+    (first, records): Tile<R>,
     memory: &mut W,
     place: Option<Place>,
-    work: Work<W>,
+    work: Work<W, R>,
     progress: &Progress,
     poll: Poll,
 ) {
@@ -195,7 +209,7 @@ fn work_off<W>(
             progress.stop.store(true, Ordering::Relaxed);
         }
         if progress.stop.load(Ordering::Relaxed) {
-            (group..total).for_each(|k| records[at(k)] = FootPoint::unreached());
+            (group..total).for_each(|k| records[at(k)] = R::unreached());
             return;
         }
         for k in group..end {

@@ -18,6 +18,7 @@
 //!                   -> transform, trim                         transform.rs, support.rs, trim.rs, trim_parts.rs,
 //!                                                              trim_change.rs, trim_report.rs
 //!                   -> fair, inspect                          fair.rs, inspect_records.rs, inspect.rs
+//!                   -> intersect                               intersect_records.rs, intersect.rs, intersect_rays.rs
 //!          <- fpt_status, text of a failure for fpt_last_error
 //! ```
 //!
@@ -67,6 +68,9 @@ mod march;
 mod inspect_records;
 mod fair;
 mod inspect;
+mod intersect_records;
+mod intersect;
+mod intersect_rays;
 #[cfg(test)]
 mod tests;
 

@@ -71,6 +71,8 @@ pub mod trim;
 
 pub mod face;
 
+pub mod intersect;
+
 pub mod march;
 
 pub mod fair;

@@ -279,6 +279,43 @@ class InspectDistance(ctypes.Structure):
                 ("reserved", c_uint32)]
 
 
+class HitOptions(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("tolerance", c_double), ("chord", c_double), ("budget", c_uint64), ("threads", c_uint32),
+                ("reserved", c_uint32), ("should_stop", StopFunction), ("progress", ProgressFunction), ("user", c_void_p)]
+
+
+class Quadric(ctypes.Structure):
+    _fields_ = [("kind", c_uint32), ("reserved", c_uint32), ("origin", c_double * 3), ("axis", c_double * 3), ("size", c_double),
+                ("matrix", c_double * 6), ("linear", c_double * 3), ("constant", c_double)]
+
+
+class CurveHit(ctypes.Structure):
+    _fields_ = [("u", c_double), ("v", c_double), ("w", c_double), ("point", c_double * 3), ("distance", c_double),
+                ("u_range", c_double * 2), ("v_range", c_double * 2), ("w_range", c_double * 2), ("nature", c_uint32),
+                ("multiplicity", c_uint32)]
+
+
+class RayHit(ctypes.Structure):
+    _fields_ = [("t", c_double), ("u", c_double), ("v", c_double), ("point", c_double * 3), ("flags", c_uint32), ("count", c_uint32)]
+
+
+class Branch(ctypes.Structure):
+    _fields_ = [("point_count", c_size_t), ("ends", c_uint32 * 2), ("tangential", c_uint32), ("reserved", c_uint32)]
+
+
+class SectionPoint(ctypes.Structure):
+    _fields_ = [("u", c_double), ("v", c_double), ("point", c_double * 3), ("distance", c_double), ("arms", c_uint32),
+                ("reserved", c_uint32)]
+
+
+class SectionRegion(ctypes.Structure):
+    _fields_ = [("domain", c_double * 4), ("overlaps", c_uint32), ("reserved", c_uint32)]
+
+
+class Conic(ctypes.Structure):
+    _fields_ = [("kind", c_uint32), ("reserved", c_uint32), ("center", c_double * 3), ("axes", c_double * 6), ("lengths", c_double * 2)]
+
+
 STRUCTS: dict[str, type[ctypes.Structure]] = {
     "fpt_curve_data": CurveData, "fpt_surface_data": SurfaceData, "fpt_curve_callback": CurveCallback,
     "fpt_surface_callback": SurfaceCallback, "fpt_query_options": QueryOptions, "fpt_extrema_options": ExtremaOptions,
@@ -299,6 +336,8 @@ STRUCTS: dict[str, type[ctypes.Structure]] = {
     "fpt_inspect_picture_options": InspectPictureOptions, "fpt_inspect_range": InspectRange, "fpt_inspect_tooth": InspectTooth,
     "fpt_inspect_curvature": InspectCurvatures, "fpt_inspect_place": InspectPlace, "fpt_inspect_measured": InspectMeasured,
     "fpt_inspect_continuity": InspectContinuity, "fpt_inspect_distance": InspectDistance,
+    "fpt_hit_options": HitOptions, "fpt_quadric": Quadric, "fpt_curve_hit": CurveHit, "fpt_ray_hit": RayHit, "fpt_branch": Branch,
+    "fpt_section_point": SectionPoint, "fpt_section_region": SectionRegion, "fpt_conic": Conic,
 }
 
 # One letter an argument: p pointer (arrays, handles, structs), z size_t, d double, I uint32_t, i int32_t.
@@ -370,6 +409,12 @@ _STATUS = {
     "inspect_curvatures": "ppzp", "inspect_monotone_pieces": "pp", "inspect_inflections": "ppp", "inspect_umbilics": "ppp",
     "inspect_set_count": "pp", "inspect_set_get": "pzp", "inspect_hausdorff": "ppppppp", "inspect_border": "pIpIpp",
     "inspect_picture": "ppzpp",
+    "intersect_curves": "pppp", "intersect_surface_curve": "pppp", "intersect_curve_quadric": "pppp", "curve_hits_count": "pp",
+    "curve_hits_get": "pzp", "curve_hits_undecided_count": "pp", "curve_hits_undecided_get": "pzp",
+    "intersect_surface_quadrics": "ppzpp", "sections_counts": "pzp", "sections_branch_get": "pzzp", "sections_branch_points": "pzzzp",
+    "sections_point_get": "pzzp", "sections_region_get": "pzzp", "intersect_quadrics": "ppdpp", "caster_new": "ppp",
+    "caster_first": "pppzppp", "caster_all": "pppzppp", "ray_hits_count": "pp", "ray_hits_get": "pzp", "ray_hits_starts": "pzp",
+    "ray_hits_flags": "pzp",
 }
 _OTHER = {
     "last_error": ("", c_char_p), "status_name": ("i", c_char_p), "version": ("", c_uint32), "abi_version": ("", c_uint32),
@@ -382,6 +427,9 @@ _OTHER = {
     "intersect_surfaces_options_init": ("pz", None), "surface_intersection_free": ("p", None),
     "fair_options_init": ("pz", None), "fair_report_free": ("p", None), "inspect_options_init": ("pz", None),
     "inspect_picture_options_init": ("pz", None), "inspect_set_free": ("p", None),
+    "trim_free": ("p", None), "trim_report_free": ("p", None),
+    "hit_options_init": ("pz", None), "curve_hits_free": ("p", None), "sections_free": ("p", None), "caster_free": ("p", None),
+    "ray_hits_free": ("p", None),
 }
 PROTOTYPES = {name: (letters, c_int32) for name, letters in _STATUS.items()} | _OTHER
 

@@ -9,7 +9,7 @@ import pytest
 from shapes import ROOT, circle, cloud, cylinder, hill
 
 import footpoint
-from footpoint import _face, _feet, _library, construct, fair, inspect, operate, pcurve, trims, weights
+from footpoint import _face, _feet, _library, construct, fair, inspect, intersect, operate, pcurve, trims, weights
 
 HEADER = re.sub(r"/\*.*?\*/", "", (ROOT / "include" / "footpoint.h").read_text(encoding="utf-8"), flags=re.S)
 SCALARS = {"size_t": ctypes.c_size_t, "double": ctypes.c_double, "uint32_t": ctypes.c_uint32, "int32_t": ctypes.c_int32,
@@ -60,14 +60,17 @@ def test_structs():
                                           (weights.WeightFlag, "FPT_WEIGHT_"),
                                           (weights.ConstraintKind, "FPT_CONSTRAINT_"), (weights.Unit, "FPT_UNIT_"),
                                           (construct.Spacing, "FPT_SPACING_"), (construct.Condition, "FPT_FIT_"),
-                                          (construct.ArcForm, "FPT_ARC_"), (construct.QuadricKind, "FPT_QUADRIC_"),
+                                          (construct.ArcForm, "FPT_ARC_"), (construct.QuadricKind, "FPT_PATCH_"),
                                           (trims.ElementaryKind, "FPT_ELEMENTARY_"), (trims.PcurveKind, "FPT_PCURVE_"),
                                           (trims.CoedgeFlag, "FPT_COEDGE_"), (trims.Replacement, "FPT_REPLACEMENT_"),
                                           (trims.FindingKind, "FPT_FINDING_"), (pcurve.PcurveFlag, "FPT_DEVIATION_"),
                                           (footpoint.Standing, "FPT_FACE_"), (footpoint.BranchEnd, "FPT_BRANCH_END_"),
                                           (footpoint.ContactKind, "FPT_CONTACT_"), (fair.Method, "FPT_FAIR_"),
                                           (inspect.Quantity, "FPT_QUANTITY_"), (inspect.Pattern, "FPT_PATTERN_"),
-                                          (inspect.Kind, "FPT_PLACE_"), (operate.Direction, "FPT_DIRECTION_")])
+                                          (inspect.Kind, "FPT_PLACE_"), (operate.Direction, "FPT_DIRECTION_"),
+                                          (intersect.HitNature, "FPT_HIT_"), (intersect.End, "FPT_END_"),
+                                          (intersect.RayFlag, "FPT_RAY_"), (intersect.QuadricKind, "FPT_QUADRIC_"),
+                                          (intersect.ConicKind, "FPT_CONIC_")])
 def test_enums(enum: type[Enum], prefix):
     listed = {name: int(value) for name, value in re.findall(rf"^\s*{prefix}(\w+) = (\d+),", HEADER, re.M)}
     assert listed == {name: int(member) for name, member in enum.__members__.items()}
@@ -77,7 +80,9 @@ def test_records():
     for struct, dtype in ((_library.FootPoint, _feet.FOOT), (_library.FootMember, _feet.MEMBER),
                           (_library.WeightsPole, weights.POLE), (_library.WeightsOutcome, weights.OUTCOME),
                           (_library.FacePlace, _face.PLACE), (_library.InspectTooth, inspect.TOOTH),
-                          (_library.InspectCurvatures, inspect.CURVATURES), (_library.InspectPlace, inspect.PLACE)):
+                          (_library.InspectCurvatures, inspect.CURVATURES), (_library.InspectPlace, inspect.PLACE),
+                          (_library.CurveHit, intersect.HIT), (_library.RayHit, intersect.RAY_HIT),
+                          (_library.SectionPoint, intersect.SECTION_POINT), (_library.Conic, intersect.CONIC)):
         assert dtype.itemsize == ctypes.sizeof(struct)
         assert {name: dtype.fields[name][1] for name in dtype.names} == {name: getattr(struct, name).offset for name, _ in struct._fields_}
     assert _library.ABI_VERSION == int(re.search(r"#define FPT_ABI_VERSION (\d+)", HEADER)[1])
@@ -193,6 +198,16 @@ def test_every_function_is_reached(monkeypatch):
     with pytest.raises(Exception):
         met._contact(99)
     assert len(footpoint.intersect_surfaces(surface, flat, budget=2).undecided)
+    line, plane = footpoint.Curve.from_poles(1, [[-5, 0, 1], [5, 0, 1]]), intersect.Quadric.plane([0, 0, 1], [0, 0, 1])
+    intersect.curves(curve, curve, budget=50), intersect.surface_curve(surface, line), intersect.curve_quadric(line, plane)
+    intersect.sections(surface, [plane, intersect.Quadric.plane(surface.evaluate([1, 0.5]), [1, 0, 0])])
+    intersect.sections(hill(), [intersect.Quadric.plane([0, 0, 0], [0, 0, 1])] * 2)
+    intersect.sections(footpoint.Surface.from_poles(1, 1, [[[0, 0, 0], [0, 2, 0]], [[2, 0, 0], [2, 2, 0]]]),
+                       [intersect.Quadric.plane([0, 0, 0], [0, 0, 1]), intersect.Quadric.sphere([1, 1, 1], 1)])
+    intersect.conics(plane, intersect.Quadric.sphere([0, 0, 0], 2), 1e-9)
+    caster = intersect.Caster(surface)
+    caster.first(points, [1, 0, 0]), caster.all(points, [1, 0, 0])
+    del caster
     footpoint.version(), footpoint.abi_version()
     with pytest.raises(RuntimeError, match="FPT_INTERNAL"):
         raise _library.failure(_library.INTERNAL)

@@ -18,19 +18,19 @@ use std::mem::{offset_of, size_of};
 /// Quadrics with an axis, for fpt_surface_quadric: distance from the axis and height along the profile's parameter t.
 #[repr(C)]
 #[derive(Clone, Copy)]
-pub enum fpt_quadric {
+pub enum fpt_quadric_patch {
     /// cos t, sin t: t is a latitude.
-    FPT_QUADRIC_ELLIPSOID = 0,
+    FPT_PATCH_ELLIPSOID = 0,
     /// cosh t, sinh t: hyperboloid of one sheet.
-    FPT_QUADRIC_ONE_SHEET = 1,
+    FPT_PATCH_ONE_SHEET = 1,
     /// sinh t, cosh t: half a hyperboloid of two sheets, t >= 0.
-    FPT_QUADRIC_TWO_SHEETS = 2,
+    FPT_PATCH_TWO_SHEETS = 2,
     /// t, t^2: elliptic paraboloid, t >= 0.
-    FPT_QUADRIC_PARABOLOID = 3,
+    FPT_PATCH_PARABOLOID = 3,
     /// t, t: elliptic cone, t >= 0.
-    FPT_QUADRIC_CONE = 4,
+    FPT_PATCH_CONE = 4,
     /// 1, t: elliptic cylinder.
-    FPT_QUADRIC_CYLINDER = 5,
+    FPT_PATCH_CYLINDER = 5,
 }
 
 /// How fpt_surface_swept moves a profile. All zero after struct_size is the default of everything but the tolerance. Grows at the end
@@ -130,7 +130,7 @@ unsafe fn splines(
 
 /// The part of a quadric between two angles about its axis (u, over [0, 1]) and two parameters of its profile (v).
 ///
-/// @param kind       a value of fpt_quadric
+/// @param kind       a value of fpt_quadric_patch
 /// @param axes       as fpt_curve_arc
 /// @param semi_axes  3 numbers more than 0: across along X, across along Y, along the axis
 /// @param angles     begin and end in radians, at most a turn
@@ -151,16 +151,16 @@ pub unsafe extern "C" fn fpt_surface_quadric(
 ) -> fpt_status {
     // SAFETY: the header asks for arrays of these lengths and room for a handle.
     guard(|| unsafe {
-        use fpt_quadric::*;
+        use fpt_quadric_patch::*;
         let values = [
-            (FPT_QUADRIC_ELLIPSOID as u32, Quadric::Ellipsoid),
-            (FPT_QUADRIC_ONE_SHEET as u32, Quadric::OneSheet),
-            (FPT_QUADRIC_TWO_SHEETS as u32, Quadric::TwoSheets),
-            (FPT_QUADRIC_PARABOLOID as u32, Quadric::Paraboloid),
-            (FPT_QUADRIC_CONE as u32, Quadric::Cone),
-            (FPT_QUADRIC_CYLINDER as u32, Quadric::Cylinder),
+            (FPT_PATCH_ELLIPSOID as u32, Quadric::Ellipsoid),
+            (FPT_PATCH_ONE_SHEET as u32, Quadric::OneSheet),
+            (FPT_PATCH_TWO_SHEETS as u32, Quadric::TwoSheets),
+            (FPT_PATCH_PARABOLOID as u32, Quadric::Paraboloid),
+            (FPT_PATCH_CONE as u32, Quadric::Cone),
+            (FPT_PATCH_CYLINDER as u32, Quadric::Cylinder),
         ];
-        let kind = chosen("kind", "FPT_QUADRIC_", kind, &values)?;
+        let kind = chosen("kind", "FPT_PATCH_", kind, &values)?;
         let axes = self::axes(axes)?;
         let semi_axes = numbers("semi_axes", semi_axes)?;
         let angles: [f64; 2] = numbers("angles", angles)?;

@@ -173,6 +173,14 @@ impl CurveForm {
 }
 
 impl SurfaceForm {
+    /// The spline, to be kept.
+    pub(super) fn shared_spline(&self) -> Result<Arc<IndexedSurface>, Failure> {
+        match self {
+            Self::Spline(surface) => Ok(Arc::clone(surface)),
+            Self::Function(_) => Err(no_spline("surface")),
+        }
+    }
+
     pub(super) fn spline(&self) -> Result<&IndexedSurface, Failure> {
         match self {
             Self::Spline(surface) => Ok(surface),

@@ -333,7 +333,7 @@ fn hint<const N: usize>(row: [f64; N], ends: [[f64; 2]; N]) -> Option<[f64; N]> 
 }
 
 pub(super) type ShouldStop = unsafe extern "C" fn(*mut c_void) -> c_int;
-type Progress = unsafe extern "C" fn(*mut c_void, usize, usize);
+pub(super) type Progress = unsafe extern "C" fn(*mut c_void, usize, usize);
 type TraceStep = unsafe extern "C" fn(*mut c_void, usize, u32, f64, f64, f64);
 
 /// The caller's functions and what they are handed.

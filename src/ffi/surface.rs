@@ -111,6 +111,17 @@ pub(super) unsafe fn indexed<'a>(
     unsafe { form(surface) }?.spline()
 }
 
+/// As [`indexed`], to be kept.
+///
+/// # Safety
+/// NULL or a live handle.
+pub(super) unsafe fn shared_spline(
+    surface: *const fpt_surface,
+) -> Result<Arc<IndexedSurface>, Failure> {
+    // SAFETY: the caller vouches for it.
+    unsafe { form(surface) }?.shared_spline()
+}
+
 /// As [`indexed`], without the index.
 ///
 /// # Safety
