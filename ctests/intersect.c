@@ -133,7 +133,7 @@ static void a_surface_is_cut(void) {
     CHECK_OK(fpt_sections_counts(sections, 0, counts));
     CHECK(counts[0] == 1 && counts[1] == 0 && counts[2] == 0);
     CHECK_OK(fpt_sections_branch_get(sections, 0, 0, &branch));
-    CHECK(branch.ends[0] == FPT_END_CLOSED && branch.ends[1] == FPT_END_CLOSED && branch.tangential == 0);
+    CHECK(branch.ends[0] == FPT_SECTION_END_CLOSED && branch.ends[1] == FPT_SECTION_END_CLOSED && branch.tangential == 0);
     CHECK(branch.point_count > 20 && branch.point_count <= 1000);
     CHECK_OK(fpt_sections_branch_points(sections, 0, 0, 5000, points));
     for (k = 0; k < branch.point_count && k < 1000; k++)

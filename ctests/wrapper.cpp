@@ -645,7 +645,7 @@ void intersections_are_those_of_the_c_api() {
                                                   footpoint::quadric::cone({0.5, 0.5, 1}, {0, 0, 1}, 0.25)};
     const auto sections = footpoint::sections(flat, cuts);
     CHECK(sections.size() == 3 && sections[0].branches.size() == 1 && sections[1].regions.size() == 1);
-    CHECK(sections[0].branches.at(0).head.ends[0] == FPT_END_CLOSED);
+    CHECK(sections[0].branches.at(0).head.ends[0] == FPT_SECTION_END_CLOSED);
     for (const auto &p : sections[2].branches.at(0).points) CHECK_NEAR(std::hypot(p[0] - 0.5, p[1] - 0.5), 0.25, 1e-14);
     const auto rings = footpoint::conics(footpoint::quadric::sphere({0, 0, 0}, 1), footpoint::quadric::sphere({1, 0, 0}, 1), 1e-9);
     CHECK(rings.size() == 1 && rings.at(0).kind == FPT_CONIC_ELLIPSE);

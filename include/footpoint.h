@@ -693,6 +693,32 @@ typedef enum fpt_branch_end {
 } fpt_branch_end;
 
 /**
+ * What an end of a branch is.
+ */
+typedef enum fpt_section_end {
+    /**
+     * The branch is a loop: both ends are the same point of space.
+     */
+    FPT_SECTION_END_CLOSED = 0,
+    /**
+     * A border of the domain.
+     */
+    FPT_SECTION_END_BORDER = 1,
+    /**
+     * A point where branches meet.
+     */
+    FPT_SECTION_END_SINGULAR = 2,
+    /**
+     * A collapsed edge.
+     */
+    FPT_SECTION_END_COLLAPSED = 3,
+    /**
+     * A box that was not decided.
+     */
+    FPT_SECTION_END_UNDECIDED = 4,
+} fpt_section_end;
+
+/**
  * What a contact is, for fpt_intersection_contact.kind.
  */
 typedef enum fpt_contact_kind {
@@ -3061,7 +3087,7 @@ typedef struct fpt_branch {
      */
     size_t point_count;
     /**
-     * Values of fpt_branch_end.
+     * Values of fpt_section_end.
      */
     uint32_t ends[2];
     /**

@@ -68,7 +68,7 @@ def test_structs():
                                           (footpoint.ContactKind, "FPT_CONTACT_"), (fair.Method, "FPT_FAIR_"),
                                           (inspect.Quantity, "FPT_QUANTITY_"), (inspect.Pattern, "FPT_PATTERN_"),
                                           (inspect.Kind, "FPT_PLACE_"), (operate.Direction, "FPT_DIRECTION_"),
-                                          (intersect.HitNature, "FPT_HIT_"), (intersect.End, "FPT_END_"),
+                                          (intersect.HitNature, "FPT_HIT_"), (intersect.End, "FPT_SECTION_END_"),
                                           (intersect.RayFlag, "FPT_RAY_"), (intersect.QuadricKind, "FPT_QUADRIC_"),
                                           (intersect.ConicKind, "FPT_CONIC_")])
 def test_enums(enum: type[Enum], prefix):

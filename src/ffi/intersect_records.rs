@@ -266,17 +266,17 @@ pub struct fpt_ray_hit {
 
 /// What an end of a branch is.
 #[repr(C)]
-pub enum fpt_branch_end {
+pub enum fpt_section_end {
     /// The branch is a loop: both ends are the same point of space.
-    FPT_END_CLOSED = 0,
+    FPT_SECTION_END_CLOSED = 0,
     /// A border of the domain.
-    FPT_END_BORDER = 1,
+    FPT_SECTION_END_BORDER = 1,
     /// A point where branches meet.
-    FPT_END_SINGULAR = 2,
+    FPT_SECTION_END_SINGULAR = 2,
     /// A collapsed edge.
-    FPT_END_COLLAPSED = 3,
+    FPT_SECTION_END_COLLAPSED = 3,
     /// A box that was not decided.
-    FPT_END_UNDECIDED = 4,
+    FPT_SECTION_END_UNDECIDED = 4,
 }
 
 /// A branch of a section: 24 bytes, frozen.
@@ -284,7 +284,7 @@ pub enum fpt_branch_end {
 pub struct fpt_branch {
     /// Number of its points.
     pub point_count: usize,
-    /// Values of fpt_branch_end.
+    /// Values of fpt_section_end.
     pub ends: [u32; 2],
     /// 1: the surfaces touch all along it.
     pub tangential: u32,
@@ -400,9 +400,9 @@ const _: () = {
     assert!(fpt_hit_nature::FPT_HIT_TRANSVERSAL as u32 == Nature::Transversal as u32);
     assert!(fpt_hit_nature::FPT_HIT_TANGENTIAL as u32 == Nature::Tangential as u32);
     assert!(fpt_hit_nature::FPT_HIT_OVERLAP as u32 == Nature::Overlap as u32);
-    assert!(fpt_branch_end::FPT_END_CLOSED as u32 == End::Closed as u32);
-    assert!(fpt_branch_end::FPT_END_BORDER as u32 == End::Border as u32);
-    assert!(fpt_branch_end::FPT_END_SINGULAR as u32 == End::Singular as u32);
-    assert!(fpt_branch_end::FPT_END_COLLAPSED as u32 == End::Collapsed as u32);
-    assert!(fpt_branch_end::FPT_END_UNDECIDED as u32 == End::Undecided as u32);
+    assert!(fpt_section_end::FPT_SECTION_END_CLOSED as u32 == End::Closed as u32);
+    assert!(fpt_section_end::FPT_SECTION_END_BORDER as u32 == End::Border as u32);
+    assert!(fpt_section_end::FPT_SECTION_END_SINGULAR as u32 == End::Singular as u32);
+    assert!(fpt_section_end::FPT_SECTION_END_COLLAPSED as u32 == End::Collapsed as u32);
+    assert!(fpt_section_end::FPT_SECTION_END_UNDECIDED as u32 == End::Undecided as u32);
 };
