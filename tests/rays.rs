@@ -1,5 +1,6 @@
 //! Rays against closed forms: all hits, at any angle, on any surface; the same bits for any number of threads.
 
+#[allow(dead_code, reason = "one surface of the cases only")]
 #[path = "cases/mod.rs"]
 mod cases;
 mod known_shapes;
