@@ -6,7 +6,7 @@
 //!   with a proven error  remove knots, reduce, periodic, join: `Bounded { shape, error }`
 //! ```
 //!
-//! Nearly all exact ones are one thing, a [`map`]: each new pole is a mean of neighbouring old ones with shares that are never
+//! Nearly all exact ones are one thing, a `map`: each new pole is a mean of neighbouring old ones with shares that are never
 //! negative, so that errors stay a few units of the size of the local net. The error of the others is not estimated:
 //! [`difference`](crate::operate::Difference) bounds the distance of old and new shape at equal parameters by the hull of
 //! their difference, and that also bounds the Hausdorff distance.

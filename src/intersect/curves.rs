@@ -64,7 +64,7 @@ pub struct CurveHit {
 pub struct HitOptions {
     /// Length: places farther apart do not meet. 0: 1e-7 of the greater diagonal; never less than the rounding.
     pub tolerance: f64,
-    /// Most boxes. 0: [`DEFAULT_BUDGET`].
+    /// Most boxes. 0: 1,000,000.
     pub budget: u64,
 }
 
