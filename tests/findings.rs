@@ -569,3 +569,30 @@ fn a_minimum_on_a_border_inside_a_span_that_doubles_do_not_resolve_is_found() {
         assert_eq!(nearest.foot.v, z.clamp(0., 1.));
     }
 }
+
+/// A cut beside a tip left its parts without coefficients, and a fresh workspace (all zeros) let both be closed unseen.
+#[test]
+fn a_cut_beside_the_tip_of_a_rational_cone_loses_nothing() {
+    let round = [[1., 0.], [1., 1.], [-1., 1.], [-1., 0.], [-1., -1.], [1., -1.], [1., 0.]];
+    let knots = [0., 0., 0., 1., 2., 2., 3., 4., 4., 4.];
+    let poles: Vec<[f64; 3]> =
+        round.iter().flat_map(|&[x, y]| [[0.; 3], [1.1 * x, y, 1.0]]).collect();
+    let weights = [1., 0.5, 0.5, 1., 0.5, 0.5, 1.].map(|w: f64| [w, w]).concat();
+    let cone = Surface::new(&knots, &[0., 0., 1., 1.], 2, 1, &poles, 7, 2, Some(&weights)).unwrap();
+    let (cone, options) = (IndexedSurface::general(cone), QueryOptions::default());
+    let mut used = Workspace::default();
+    for k in 0..200 {
+        let angle = 0.1 * f64::from(k);
+        let size = 0.5f64.powi(k % 30);
+        let query = [0.3 * size * angle.cos(), 0.2 * size * angle.sin(), 0.4 * size];
+        let foot = cone.closest(query, None, &options, &mut Workspace::default(), None);
+        assert_eq!(foot, cone.closest(query, None, &options, &mut used, None));
+        let apart = |i: i32, j: i32| {
+            let s =
+                cone.surface().evaluate(4.0 * f64::from(i) / 200.0, f64::from(j) / 200.0 * size);
+            (0..3).map(|c| (s[c] - query[c]).powi(2)).sum::<f64>().sqrt()
+        };
+        let nearest = (0..200).flat_map(|i| (0..=200).map(move |j| apart(i, j)));
+        assert!(foot.distance <= nearest.fold(f64::INFINITY, f64::min) + 1e-10, "{k}: {foot:?}");
+    }
+}

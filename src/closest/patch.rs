@@ -118,6 +118,8 @@ struct Area {
     age: u32,
     /// In a walk for ties: whether it holds one foot at most.
     small: bool,
+    /// Whether its slot holds nothing yet: its coefficients are formed from the poles when its turn comes.
+    unformed: bool,
 }
 
 /// Memory of the search on patches.
@@ -283,6 +285,9 @@ impl Walk<'_, '_, '_> {
     }
 
     fn judge(&mut self, area: &mut Area, at: usize) -> Verdict {
+        if std::mem::take(&mut area.unformed) && self.load(area, at) {
+            return Verdict::Closed;
+        }
         if self.is_beyond(area, at) {
             return Verdict::Closed;
         }

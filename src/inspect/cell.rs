@@ -60,8 +60,9 @@ impl Piece<'_> {
         let ones = vec![1.0; count];
         let (coordinates, weights) = net.split_at_mut(3 * count);
         let heaviest = weights.iter().fold(1e-200f64, |m, w| m.max(*w));
-        let exponent = if self.rational { heaviest.log2().floor() as i32 } else { 0 };
-        let factor = 2f64.powi(-exponent);
+        // The power of two below the greatest weight, read from its bits: it divides without rounding.
+        let exponent = ((heaviest.to_bits() >> 52) & 0x7ff) as i32 - 1023;
+        let factor = if self.rational { 2f64.powi(-exponent) } else { 1.0 };
         weights.iter_mut().for_each(|w| *w *= factor);
         let weights: &[f64] = if self.rational { weights } else { &ones };
         let mut size = 0.0f64;

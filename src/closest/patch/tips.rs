@@ -1,7 +1,7 @@
 //! Cuts beside a side that is a point, or nearly: around a tip that is near the query, halving would take a box for each power
 //! of two between the size of the patch and the distance.
 
-use super::{Area, FRESH, LEAST_WIDTH, Walk};
+use super::{Area, LEAST_WIDTH, Walk};
 use crate::bezier::Bidegree;
 use crate::bounds::{Vector, norm, sub};
 
@@ -53,7 +53,7 @@ impl Walk<'_, '_, '_> {
         let low_is_narrow = middle - a < b - middle;
         let (low, high) = ([a, middle], [middle, b]);
         for ends in if low_is_narrow { [high, low] } else { [low, high] } {
-            let mut part = Area { error: f64::INFINITY, age: FRESH, ..area };
+            let mut part = Area { unformed: true, ..area };
             *(if direction == 0 { &mut part.s } else { &mut part.t }) = ends;
             self.memory.waiting.push(part);
         }
