@@ -398,7 +398,8 @@ class InspectOptions(TypedDict, total=False):
 _OPTIONS: dict[Any, tuple[str, Any]] = {
     lib.QueryOptions: ("query_options_init", QueryOptions), lib.ExtremaOptions: ("extrema_options_init", ExtremaOptions),
     lib.WeightsOptions: ("weights_options_init", WeightsOptions),
-    lib.IntersectSurfacesOptions: ("intersect_surfaces_options_init", IntersectSurfacesOptions), lib.PullOptions: ("pull_options_init", PullOptions)}
+    lib.IntersectSurfacesOptions: ("intersect_surfaces_options_init", IntersectSurfacesOptions), lib.PullOptions: ("pull_options_init", PullOptions),
+    lib.FairOptions: ("fair_options_init", FairOptions), lib.InspectOptions: ("inspect_options_init", InspectOptions)}
 _INTEGERS = {"method": 2**32 - 1, "scope": 2**32 - 1, "threads": 2**32 - 1, "budget": 2**64 - 1, "nearest": 2**63 - 1, "degree": 31, "pole_limit": 2**63 - 1, "steps": 2**32 - 1,
 
 
