@@ -671,6 +671,17 @@ typedef enum fpt_face_standing {
 } fpt_face_standing;
 
 /**
+ * Bits of fpt_face_place.flags.
+ */
+typedef enum fpt_face_place_flag {
+    /**
+     * Whether an edge is within the tolerance is not proven: the surface is a function without a bound of its speed. Sides in the domain
+     * are exact all the same.
+     */
+    FPT_FACE_PLACE_NOT_PROVEN = 1,
+} fpt_face_place_flag;
+
+/**
  * What an end of a branch is, for fpt_intersection_branch.end_kind.
  */
 typedef enum fpt_branch_end {

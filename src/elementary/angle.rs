@@ -46,7 +46,7 @@ pub(crate) fn spline([start, end]: [f64; 2]) -> (Vec<[f64; 2]>, Vec<f64>) {
             // Even powers to x^8, odd ones to x^9; the last term first, which is the least.
             let sum = |first: usize| -> f64 {
                 let orders = (first..DEGREE + 1).step_by(2).rev();
-                let sign = |n: usize| if n / 2 % 2 == 0 { 1.0 } else { -1.0 };
+                let sign = |n: usize| if (n / 2).is_multiple_of(2) { 1.0 } else { -1.0 };
                 orders.map(|n| sign(n) * terms[n] * powers[n][j]).sum()
             };
             let (even, odd) = (sum(0), sum(1));

@@ -28,8 +28,8 @@ pub(super) enum Ground {
     Elementary {
         support: Arc<ElementarySupport>,
         /// From the parameters of the surface to those of its form, and back.
-        to_form: Transform,
-        back: Transform,
+        to_form: Box<Transform>,
+        back: Box<Transform>,
     },
     Function(Arc<CallbackSurface>),
 }
@@ -43,8 +43,8 @@ impl Ground {
             }
             Support::Elementary(elementary) => {
                 elementary.form()?.prepare(poll)?;
-                let to_form = elementary.to_form()?;
-                let back = to_form.inverse();
+                let to_form = Box::new(elementary.to_form()?);
+                let back = Box::new(to_form.inverse());
                 Self::Elementary { support: Arc::clone(elementary), to_form, back }
             }
             Support::Callback(callback) => Self::Function(Arc::clone(callback)),

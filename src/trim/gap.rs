@@ -62,7 +62,7 @@ impl<'a> Gaps<'a> {
                 let there = self.face.edge_point(coedge, share);
                 norm(sub(point, there.unwrap_or([f64::NAN; 3])))
             } else {
-                self.from_curve(&edge.curve, point)
+                self.away(&edge.curve, point)
             };
             if gap.is_nan() {
                 return (gap, parameter);
@@ -75,7 +75,7 @@ impl<'a> Gaps<'a> {
     }
 
     /// Distance of a point from a curve.
-    fn from_curve(&mut self, curve: &EdgeCurve, point: Vector) -> f64 {
+    fn away(&mut self, curve: &EdgeCurve, point: Vector) -> f64 {
         let options = QueryOptions::default();
         match curve {
             EdgeCurve::Spline(curve) => {

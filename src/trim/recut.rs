@@ -315,7 +315,7 @@ impl<'a> Border<'a> {
     fn way(from: f64, to: f64) -> f64 {
         let way = to - from;
         let way = if way < 0.0 { way + 4.0 } else { way };
-        if way > 4.0 - SAME || way < SAME { 0.0 } else { way }
+        if (SAME..=4.0 - SAME).contains(&way) { way } else { 0.0 }
     }
 
     /// The coedges along the border from one place to another.
