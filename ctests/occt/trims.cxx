@@ -166,7 +166,7 @@ void sweeps() {
     for (const TopoDS_Shape &shape : {BRepPrimAPI_MakeRevol(wave(), axis).Shape(), BRepPrimAPI_MakePrism(wave(), gp_Vec(0.3, 2, 0)).Shape()}) {
         const footpoint::trimmed_surface trim = footpoint::occt::trimmed(TopoDS::Face(TopExp_Explorer(shape, TopAbs_FACE).Current()));
         const std::string text = trim.json();
-        expect(text.find("revolution") != std::string::npos || text.find("extrusion") != std::string::npos, text.substr(0, 80).c_str());
+        expect(text.find("revolution") != std::string::npos || text.find("extrusion") != std::string::npos, text.substr(0, 80), "kind");
     }
 }
 
