@@ -254,9 +254,9 @@ static void faces_of_functions_say_what_is_proven(void) {
         CHECK_OK(fpt_face_classify(face, uv, 3, NULL, places));
         CHECK(places[0].standing == FPT_FACE_INSIDE && places[1].standing == FPT_FACE_OUTSIDE);
         CHECK(places[2].standing == FPT_FACE_ON_EDGE);
-        CHECK(with_bounds ? places[0].flags == 0 : places[0].flags == FPT_FACE_PLACE_NOT_PROVEN || places[0].flags == 0);
+        CHECK(with_bounds ? places[0].flags == 0 : places[0].flags == FPT_STANDING_NOT_PROVEN || places[0].flags == 0);
         CHECK_OK(fpt_face_closest(face, point, 1, NULL, &foot, places));
-        CHECK(with_bounds || (foot.flags & FPT_FOOT_NOT_PROVEN && places[0].flags == FPT_FACE_PLACE_NOT_PROVEN));
+        CHECK(with_bounds || (foot.flags & FPT_FOOT_NOT_PROVEN && places[0].flags == FPT_STANDING_NOT_PROVEN));
         CHECK(foot.lower_bound <= foot.distance);
         fpt_face_free(face);
     }

@@ -673,13 +673,13 @@ typedef enum fpt_face_standing {
 /**
  * Bits of fpt_face_place.flags.
  */
-typedef enum fpt_face_place_flag {
+typedef enum fpt_standing_flag {
     /**
      * Whether an edge is within the tolerance is not proven: the surface is a function without a bound of its speed. Sides in the domain
      * are exact all the same.
      */
-    FPT_FACE_PLACE_NOT_PROVEN = 1,
-} fpt_face_place_flag;
+    FPT_STANDING_NOT_PROVEN = 1,
+} fpt_standing_flag;
 
 /**
  * What an end of a branch is, for fpt_intersection_branch.end_kind.
@@ -2439,7 +2439,7 @@ typedef struct fpt_face_place {
      */
     uint32_t coedge_index;
     /**
-     * 0 or FPT_FACE_PLACE_NOT_PROVEN.
+     * 0 or FPT_STANDING_NOT_PROVEN.
      */
     uint32_t flags;
     /**
@@ -6826,7 +6826,7 @@ void fpt_face_options_init(struct fpt_face_options *options, size_t struct_size)
  * milliseconds for one whose image must be fitted.
  *
  * On a surface given by a function what is proven depends on the bounds that it was made with: none of its speed, and no distance
- * is (FPT_FOOT_NOT_PROVEN, FPT_FACE_PLACE_NOT_PROVEN); none of its second derivatives, and not where the nearest point is neither the surface's
+ * is (FPT_FOOT_NOT_PROVEN, FPT_STANDING_NOT_PROVEN); none of its second derivatives, and not where the nearest point is neither the surface's
  * nor that of the edges.
  *
  * @param data     the inputs, copied

@@ -8,7 +8,7 @@ Every call releases the GIL and uses all cores unless `threads` says otherwise; 
 """
 
 from . import construct, convert, fair, inspect, intersect, operate, pcurve, trims, weights
-from ._face import Face, Standing
+from ._face import Face, Standing, StandingFlag
 from ._feet import Feet, Flag, FootSet, Kind, Method, Nature, NormalFlag, PathChange, Scope
 from ._library import Cancelled, abi_version, version
 from ._scene import NO_MEMBER, Scene
@@ -18,6 +18,6 @@ from .intersection import BranchEnd, ContactKind, Intersection, intersect_surfac
 
 __version__ = version()
 __all__ = ["BranchEnd", "Cancelled", "ContactKind", "Curve", "Face", "Feet", "Flag", "FootSet", "Intersection", "Kind",
-           "Method", "NO_MEMBER", "Nature", "NormalFlag", "PathChange", "Scene", "Scope", "Standing", "Surface",
+           "Method", "NO_MEMBER", "Nature", "NormalFlag", "PathChange", "Scene", "Scope", "Standing", "StandingFlag", "Surface",
            "abi_version", "construct", "convert", "fair", "from_freecad", "from_geomdl", "from_occ", "from_splinepy",
            "inspect", "intersect", "intersect_surfaces", "operate", "pcurve", "trims", "version", "weights"]

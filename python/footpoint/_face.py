@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from enum import IntEnum
+from enum import IntEnum, IntFlag
 from typing import TYPE_CHECKING, Any, Callable, Iterable
 
 import numpy as np
@@ -31,8 +31,15 @@ class Standing(IntEnum):
     UNKNOWN = 3
 
 
-#: Where on a face a place lies: `standing`, and on an edge the number of its loop, of its pcurve in the loop, and its parameter; `flags` is 1
-#: where the surface is a function without a bound of its speed: whether an edge is within the tolerance is not proven then.
+class StandingFlag(IntFlag):
+    """What is to be said of a standing; see the `flags` of `PLACE`."""
+
+    NOT_PROVEN = 1
+
+
+#: Where on a face a place lies: `standing`, and on an edge the number of its loop, of its pcurve in the loop, and its parameter. `flags` are
+#: `StandingFlag`: NOT_PROVEN where the surface is a function without a bound of its speed; whether an edge is within the tolerance is
+#: not proven then.
 PLACE = np.dtype([("standing", np.uint32), ("loop_index", np.uint32), ("coedge_index", np.uint32), ("flags", np.uint32),
                   ("parameter", np.float64)])
 
@@ -62,12 +69,9 @@ class _Making:
 
     def call(self, name: str, *arguments: Any) -> int:
         out = ctypes.c_void_p()
-        try:
-            lib.call(name, *arguments, ctypes.byref(self.options), ctypes.byref(out))
-        except Exception:
-            if self.failure is not None:
-                raise self.failure from None
-            raise
+        status = lib.call(name, *arguments, ctypes.byref(self.options), ctypes.byref(out))
+        if status == lib.CANCELLED:
+            raise self.failure or lib.Cancelled("making a face was cancelled by should_stop")
         assert out.value is not None
         return out.value
 

@@ -64,7 +64,7 @@ def test_structs():
                                           (trims.ElementaryKind, "FPT_ELEMENTARY_"), (trims.PcurveKind, "FPT_PCURVE_"),
                                           (trims.CoedgeFlag, "FPT_COEDGE_"), (trims.Replacement, "FPT_REPLACEMENT_"),
                                           (trims.FindingKind, "FPT_FINDING_"), (pcurve.PcurveFlag, "FPT_DEVIATION_"),
-                                          (footpoint.Standing, "FPT_FACE_"), (footpoint.BranchEnd, "FPT_BRANCH_END_"),
+                                          (footpoint.Standing, "FPT_FACE_"), (footpoint.StandingFlag, "FPT_STANDING_"), (footpoint.BranchEnd, "FPT_BRANCH_END_"),
                                           (footpoint.ContactKind, "FPT_CONTACT_"), (fair.Method, "FPT_FAIR_"),
                                           (inspect.Quantity, "FPT_QUANTITY_"), (inspect.Pattern, "FPT_PATTERN_"),
                                           (inspect.Kind, "FPT_PLACE_"), (operate.Direction, "FPT_DIRECTION_"),
@@ -104,6 +104,7 @@ def reach_trims():
     whole = trims.TrimmedSurface.whole(sphere)
     face = trims.TrimmedSurface(sphere, [*whole.loops, hole], whole.edges)
     face.support, face.is_flipped, face.evaluate(0, 0, [0.5]), face.report(), trims.picture([face])
+    trims.arc_by_angle([0, 0, 0], [1, 0, 0], [0, 1, 0], 0, 1)
     nurbs = face.to_nurbs([0, 2], 1e-4, trims.Replacement.SPLINE).face
     nurbs.loops, face.to_nurbs([0, 2], 1e-3).face.loops, nurbs.to_elementary(sphere, [0, 2], 1e-3)
     face.change(exact, form, 1e-3), face.follow(form, 1e-2)

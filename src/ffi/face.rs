@@ -45,7 +45,7 @@ pub struct fpt_face_place {
     pub loop_index: u32,
     /// On an edge: the number of the pcurve in its loop; else UINT32_MAX.
     pub coedge_index: u32,
-    /// 0 or FPT_FACE_PLACE_NOT_PROVEN.
+    /// 0 or FPT_STANDING_NOT_PROVEN.
     pub flags: u32,
     /// On an edge: the parameter of the pcurve; else NaN.
     pub parameter: f64,
@@ -54,10 +54,10 @@ pub struct fpt_face_place {
 /// Bits of fpt_face_place.flags.
 #[repr(C)]
 #[derive(Clone, Copy)]
-pub enum fpt_face_place_flag {
+pub enum fpt_standing_flag {
     /// Whether an edge is within the tolerance is not proven: the surface is a function without a bound of its speed. Sides in the domain
     /// are exact all the same.
-    FPT_FACE_PLACE_NOT_PROVEN = 1,
+    FPT_STANDING_NOT_PROVEN = 1,
 }
 
 // Places are copied out as they are: the layouts must agree.
@@ -69,7 +69,7 @@ const _: () = {
     assert!(offset_of!(fpt_face_place, coedge_index) == offset_of!(Place, coedge_index));
     assert!(offset_of!(fpt_face_place, flags) == offset_of!(Place, flags));
     assert!(offset_of!(fpt_face_place, parameter) == offset_of!(Place, parameter));
-    assert!(fpt_face_place_flag::FPT_FACE_PLACE_NOT_PROVEN as u32 == NOT_PROVEN);
+    assert!(fpt_standing_flag::FPT_STANDING_NOT_PROVEN as u32 == NOT_PROVEN);
     assert!(fpt_face_standing::FPT_FACE_INSIDE as u32 == Standing::Inside as u32);
     assert!(fpt_face_standing::FPT_FACE_OUTSIDE as u32 == Standing::Outside as u32);
     assert!(fpt_face_standing::FPT_FACE_ON_EDGE as u32 == Standing::OnEdge as u32);
@@ -245,7 +245,7 @@ fn at(failure: Failure, coedge: usize, chain: usize) -> Failure {
 /// milliseconds for one whose image must be fitted.
 ///
 /// On a surface given by a function what is proven depends on the bounds that it was made with: none of its speed, and no distance
-/// is (FPT_FOOT_NOT_PROVEN, FPT_FACE_PLACE_NOT_PROVEN); none of its second derivatives, and not where the nearest point is neither the surface's
+/// is (FPT_FOOT_NOT_PROVEN, FPT_STANDING_NOT_PROVEN); none of its second derivatives, and not where the nearest point is neither the surface's
 /// nor that of the edges.
 ///
 /// @param data     the inputs, copied
