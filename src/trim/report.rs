@@ -13,8 +13,8 @@
 //!
 //! Distances in the domain are measured with bounds of the speeds of the surface (`flat`): what is found to be apart by a
 //! length here may be nearer in space only where the surface is slower than its bound, as at a pole. Coedges without a finding are
-//! proven to be disjoint, the error of their segments included; next to a common end, up to a hundredth of the shorter one, only that their
-//! segments do not cross is. Edge gaps are found at [`super::GAP_SAMPLES`] places and at all corners of each coedge, and have a proven
+//! proven to be disjoint, the error of their segments included; within a hundredth of the shorter one from a common end, or eight
+//! tolerances, only that their segments do not cross is. Edge gaps are found at [`super::GAP_SAMPLES`] places and at all corners of each coedge, and have a proven
 //! bound where no function takes part.
 
 use super::flat::{Flat, Scale, far, meeting};
@@ -172,6 +172,48 @@ impl Hit {
         let touch = !self.crossing && !next.crossing && beside(0) && beside(1);
         touch || far(self.at, next.at) <= near
     }
+}
+
+/// A part of a segment of a chain.
+struct Clipped {
+    ends: [Parameters; 2],
+    /// Its shares of the segment.
+    shares: [f64; 2],
+}
+
+impl Clipped {
+    fn of(flat: &Flat, k: usize) -> Self {
+        Self { ends: flat.segment(k), shares: [0.0, 1.0] }
+    }
+
+    fn at(&self, share: f64) -> Parameters {
+        let [a, b] = self.ends;
+        [0, 1].map(|k| a[k] + share * (b[k] - a[k]))
+    }
+
+    /// The share of the whole segment.
+    fn share(&self, share: f64) -> f64 {
+        self.shares[0] + share * (self.shares[1] - self.shares[0])
+    }
+
+    /// Leaves what is farther than `reach` from a corner near one of its ends; false when nothing is.
+    fn leave(&mut self, corner: Parameters, reach: f64) -> bool {
+        let [x, y] = self.ends.map(|end| far(end, corner));
+        if x.max(y) <= reach {
+            return false;
+        }
+        if x.min(y) < reach {
+            let cut = (reach - x) / (y - x);
+            let side = usize::from(x > y);
+            (self.ends[side], self.shares[side]) = (self.at(cut), self.share(cut));
+        }
+        true
+    }
+}
+
+/// Whether the second of two neighbouring segments goes back along the first.
+fn turns_back([a, b]: [Parameters; 2], [c, d]: [Parameters; 2]) -> bool {
+    (b[0] - a[0]) * (d[0] - c[0]) + (b[1] - a[1]) * (d[1] - c[1]) < 0.0
 }
 
 struct Checker<'a> {
@@ -357,22 +399,41 @@ impl Checker<'_> {
         let wide = near + CORNER_SHARE * a.length.min(b.length);
         let mut hits: Vec<Hit> = Vec::new();
         let complete = a.pairs(b, contact, &mut |i, j| {
-            if own && (i >= j || (j - i < 2 || a.run(i + 1, j) <= near)) {
+            let (mut p, mut q) = (Clipped::of(a, i), Clipped::of(b, j));
+            let (mut ends, mut wide) = (corners.clone(), wide);
+            if own && i >= j || own && j - i > 1 && a.run(i + 1, j) <= near {
                 return;
             }
-            let (p, q) = (a.segment(i), b.segment(j));
-            let (crossing, distance, shares) = meeting(p, q, a.error + b.error);
+            if own && j - i == 1 {
+                // Neighbours touch where they turn back.
+                if !turns_back(p.ends, q.ends) {
+                    return;
+                }
+                ends = vec![a.points[j]];
+                wide =
+                    near + CORNER_SHARE * far(p.ends[0], p.ends[1]).min(far(q.ends[0], q.ends[1]));
+            }
+            let (mut crossing, mut distance, mut shares) =
+                meeting(p.ends, q.ends, a.error + b.error);
             if distance > contact {
                 return;
             }
-            let at = [0, 1].map(|k| p[0][k] + shares[0] * (p[1][k] - p[0][k]));
             let reach = if crossing { near } else { wide };
-            if corners.iter().any(|corner| far(*corner, at) <= reach) {
-                return;
+            if ends.iter().any(|corner| far(*corner, p.at(shares[0])) <= reach) {
+                // The corner itself is no contact; what comes after it may be.
+                let all = ends.iter().all(|c| p.leave(*c, wide) && q.leave(*c, wide));
+                if !all {
+                    return;
+                }
+                (crossing, distance, shares) = meeting(p.ends, q.ends, a.error + b.error);
+                if distance > contact {
+                    return;
+                }
             }
-            let s = between(a.parameters[i], a.parameters[i + 1], shares[0]);
-            let t = between(b.parameters[j], b.parameters[j + 1], shares[1]);
-            hits.push(Hit { crossing, distance, at, segments: [i, j], parameters: [s, t] });
+            let s = between(a.parameters[i], a.parameters[i + 1], p.share(shares[0]));
+            let t = between(b.parameters[j], b.parameters[j + 1], q.share(shares[1]));
+            let (at, segments) = (p.at(shares[0]), [i, j]);
+            hits.push(Hit { crossing, distance, at, segments, parameters: [s, t] });
         });
         if !complete {
             findings.push(Finding::Undecided { first, second });
