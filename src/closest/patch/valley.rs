@@ -18,7 +18,7 @@ use crate::coefficients::Differences;
 
 /// Boxes of a query after which valleys are looked for; after some tries of which less than one in four closed its area, in
 /// one box of `SELDOM`.
-const LATE: u64 = 8;
+const LATE: u64 = 24;
 const TRIES: u64 = 4;
 const SELDOM: u64 = 8;
 /// Most of both degrees of `h` together: beyond, a try costs more than the boxes that it saves.
