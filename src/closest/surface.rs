@@ -23,8 +23,8 @@ use crate::refine::{Method, Trace, foot_on_surface};
 /// hold the foot must not use up the budget. One query in a thousand gets here.
 const PATIENCE: u64 = 64;
 
-/// Most lines between patches that a descent crosses.
-const MOST_CROSSED: usize = 64;
+/// Most lines between patches that a descent crosses at a time: along an almost-continuum it could go on for long.
+const MOST_CROSSED: usize = 8;
 
 /// When the budget has run out: nearest patches sampled and samples in either direction of each (fewer for high
 /// degrees, whose evaluations cost more), and the samples that are iterated from.
@@ -427,7 +427,7 @@ impl SurfaceSearch<'_> {
     fn descend(&self, before: f64, proof: &mut Proof) {
         let mut before = before;
         for _ in 0..MOST_CROSSED {
-            if proof.best >= before || proof.tying {
+            if proof.best >= before - proof.window() || proof.tying {
                 return;
             }
             before = proof.best;
