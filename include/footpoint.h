@@ -2579,6 +2579,14 @@ typedef struct fpt_inspect_options {
      * Handed to should_stop as it is.
      */
     void *user;
+    /**
+     * Ranges: a value of fpt_inspect_side, which extremes must have the gap; bounds of the other one are true, but loose.
+     */
+    uint32_t side;
+    /**
+     * Must be 0.
+     */
+    uint32_t reserved;
 } fpt_inspect_options;
 
 /**
@@ -2746,7 +2754,7 @@ typedef struct fpt_fair_summary {
 } fpt_fair_summary;
 
 /**
- * The least and the greatest value of a quantity, each between two bounds: 88 bytes, frozen.
+ * The least and the greatest value of a quantity, each between two bounds: 96 bytes, frozen.
  */
 typedef struct fpt_inspect_range {
     /**
@@ -2766,10 +2774,15 @@ typedef struct fpt_inspect_range {
      */
     double at_greatest[2];
     /**
-     * Share of the domain of which nothing is proven: beside collapsed edges and cusps, where curvatures are not bounded. The
-     * bounds hold for the rest.
+     * Share of the domain of which nothing is proven: beside tips and cusps, where curvatures are not bounded. The bounds hold for
+     * the rest.
      */
     double excluded;
+    /**
+     * Length. 0: the bounds are those of the shape. Otherwise those of a shape from which no point of this one is farther, which is
+     * rounding: beside a pole the rounding of its coordinates alone makes curvatures infinite.
+     */
+    double moved;
     /**
      * Boxes looked at.
      */

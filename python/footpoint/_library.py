@@ -239,7 +239,7 @@ class FairSummary(ctypes.Structure):
 
 class InspectOptions(ctypes.Structure):
     _fields_ = [("struct_size", c_size_t), ("domain", c_double * 4), ("relative", c_double), ("accuracy", c_double), ("budget", c_uint64),
-                ("should_stop", StopFunction), ("user", c_void_p)]
+                ("should_stop", StopFunction), ("user", c_void_p), ("side", c_uint32), ("reserved", c_uint32)]
 
 
 class InspectPictureOptions(ctypes.Structure):
@@ -249,7 +249,7 @@ class InspectPictureOptions(ctypes.Structure):
 
 class InspectRange(ctypes.Structure):
     _fields_ = [("least", c_double * 2), ("greatest", c_double * 2), ("at_least", c_double * 2), ("at_greatest", c_double * 2),
-                ("excluded", c_double), ("boxes", c_uint64), ("proven", c_uint32), ("reserved", c_uint32)]
+                ("excluded", c_double), ("moved", c_double), ("boxes", c_uint64), ("proven", c_uint32), ("reserved", c_uint32)]
 
 
 class InspectTooth(ctypes.Structure):
