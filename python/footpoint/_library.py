@@ -157,6 +157,10 @@ class Joint(ctypes.Structure):
                 ("tangent_angle", c_double), ("curvature_jump", c_double)]
 
 
+class KnotLine(ctypes.Structure):
+    _fields_ = [("value", c_double), ("multiplicity", c_uint32), ("order", c_uint32), ("gap", c_double), ("first_jump", c_double)]
+
+
 class TrimFinding(ctypes.Structure):
     _fields_ = [("kind", c_uint32), ("reserved", c_uint32), ("loop_index", c_size_t), ("coedge", c_size_t), ("parameter", c_double),
                 ("other_loop", c_size_t), ("other_coedge", c_size_t), ("other_parameter", c_double), ("numbers", c_double * 3)]
@@ -326,7 +330,7 @@ STRUCTS: dict[str, type[ctypes.Structure]] = {
     "fpt_relation_callback": RelationCallback, "fpt_elementary_data": ElementaryData, "fpt_coedge_data": CoedgeData,
     "fpt_loop_data": LoopData, "fpt_edge_data": EdgeData, "fpt_trim_data": TrimData, "fpt_change_options": ChangeOptions,
     "fpt_change_summary": ChangeSummary, "fpt_trim_finding": TrimFinding, "fpt_trim_summary": TrimSummary,
-    "fpt_difference": Difference, "fpt_estimate": Estimate, "fpt_curve_frame_record": CurveFrame, "fpt_joint": Joint,
+    "fpt_difference": Difference, "fpt_estimate": Estimate, "fpt_curve_frame_record": CurveFrame, "fpt_joint": Joint, "fpt_knot_line": KnotLine,
     "fpt_deviation": Deviation, "fpt_pull_options": PullOptions, "fpt_lift_options": LiftOptions, "fpt_face_place": FacePlace,
     "fpt_face_data": FaceData,
     "fpt_intersect_surfaces_options": IntersectSurfacesOptions, "fpt_intersection_summary": IntersectionSummary,
@@ -399,6 +403,7 @@ _STATUS = {
     "surface_isocurve": "pIdp", "surface_join": "pzIdpp", "surface_make_compatible": "pzp", "surface_difference": "ppp",
     "arc_length_new": "pdp", "arc_length_total": "pp", "arc_length_at": "ppzp", "arc_length_parameters": "ppzp",
     "curve_frame": "pdip", "curve_continuity": "pdzpp", "curve_power": "pzpp", "curve_from_power": "zddpp",
+    "surface_continuity": "pIdzpp", "surface_power": "pzpp", "surface_from_power": "zzppp",
     "pcurve_pull": "pppp", "pcurve_set_count": "pp", "pcurve_set_get": "pzpp", "pcurve_lift": "ppppp", "pcurve_deviation": "pppp",
     "face_new": "pp", "face_of_trim": "pp", "face_classify": "ppzpp", "face_closest": "ppzppp", "face_preimage": "ppdpp",
     "intersect_surfaces": "pppp", "surface_intersection_summary": "pp", "surface_intersection_branch": "pzp",
