@@ -1837,6 +1837,33 @@ typedef struct fpt_joint {
 } fpt_joint;
 
 /**
+ * How the pieces of a surface meet along a knot line: 32 bytes, frozen.
+ */
+typedef struct fpt_knot_line {
+    /**
+     * The knot; the seam of a closed surface is reported at the end of the domain.
+     */
+    double value;
+    /**
+     * How often it is a knot.
+     */
+    uint32_t multiplicity;
+    /**
+     * The highest order to which all derivatives across the line agree all along it; 0 is a mere join.
+     */
+    uint32_t order;
+    /**
+     * No gap between the pieces is wider, anywhere on the line: the hull of the jump. Of rational surfaces this and the next are of the
+     * homogeneous form, with weights at most 1, around a pole.
+     */
+    double gap;
+    /**
+     * No jump of the first derivative across the line is longer.
+     */
+    double first_jump;
+} fpt_knot_line;
+
+/**
  * How to fit. Fill it with fpt_fit_options_init, then change what matters. All zero after struct_size is the default of everything
  * but the tolerance, which fits need. Grows at the end only.
  */
@@ -1878,7 +1905,8 @@ typedef struct fpt_fit_options {
      */
     uint32_t keep_parameters;
     /**
-     * 1: fpt_surface_fit_grid asks for the feet of all points, too, with proof; 0: distances are those at the parameters.
+     * 1: fpt_surface_fit_grid finds how far the points are from their feet and proves how far the worst is; 0: distances are those at the
+     * parameters.
      */
     uint32_t certify;
     /**
@@ -1908,11 +1936,12 @@ typedef struct fpt_fit_result {
      */
     double worst;
     /**
-     * Proven: some data point is at least that far away. 0 when feet were not asked for.
+     * Proven: some data point is at least that far away. `worst` exceeds it by 1e-10 of the shape's box at most, unless points are
+     * `unproven`. 0 when feet were not asked for.
      */
     double at_least;
     /**
-     * Root of the mean of the squared distances.
+     * Root of the mean of the squared distances from the places that were found.
      */
     double rms;
     /**
@@ -1920,7 +1949,7 @@ typedef struct fpt_fit_result {
      */
     uint64_t worst_index;
     /**
-     * Data points whose distance is an upper bound only: a nearer place was not excluded.
+     * Data points that may be farther away than `at_least`: no nearer place was found, and none excluded.
      */
     uint64_t unproven;
 } fpt_fit_result;
@@ -2622,6 +2651,14 @@ typedef struct fpt_inspect_options {
      * Handed to should_stop as it is.
      */
     void *user;
+    /**
+     * Ranges: a value of fpt_inspect_side, which extremes must have the gap; bounds of the other one are true, but loose.
+     */
+    uint32_t side;
+    /**
+     * Must be 0.
+     */
+    uint32_t reserved;
 } fpt_inspect_options;
 
 /**
@@ -2789,7 +2826,7 @@ typedef struct fpt_fair_summary {
 } fpt_fair_summary;
 
 /**
- * The least and the greatest value of a quantity, each between two bounds: 88 bytes, frozen.
+ * The least and the greatest value of a quantity, each between two bounds: 96 bytes, frozen.
  */
 typedef struct fpt_inspect_range {
     /**
@@ -2809,10 +2846,15 @@ typedef struct fpt_inspect_range {
      */
     double at_greatest[2];
     /**
-     * Share of the domain of which nothing is proven: beside collapsed edges and cusps, where curvatures are not bounded. The
-     * bounds hold for the rest.
+     * Share of the domain of which nothing is proven: beside tips and cusps, where curvatures are not bounded. The bounds hold for
+     * the rest.
      */
     double excluded;
+    /**
+     * Length. 0: the bounds are those of the shape. Otherwise those of a shape from which no point of this one is farther, which is
+     * rounding: beside a pole the rounding of its coordinates alone makes curvatures infinite.
+     */
+    double moved;
     /**
      * Boxes looked at.
      */
@@ -5494,6 +5536,56 @@ fpt_status fpt_curve_from_power(size_t degree,
                                 struct fpt_curve **out);
 
 /**
+ * How the pieces of a surface meet along its knot lines of a direction inside the domain and, if it is closed there, along the seam.
+ *
+ * @param direction  FPT_DIRECTION_U: lines of constant u; or FPT_DIRECTION_V
+ * @param tolerance  as in fpt_curve_continuity
+ * @param capacity   room in out; one record a knot value is enough
+ * @param out_count  the number of records, also when there is not room for all
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_continuity(const struct fpt_surface *surface,
+                                  uint32_t direction,
+                                  double tolerance,
+                                  size_t capacity,
+                                  struct fpt_knot_line *out,
+                                  size_t *out_count);
+
+/**
+ * The powers of local parameters s and t, each 0 to 1 on every patch: w x, w y, w z, w of s^k t^l of patch (i,j) at
+ * 4 * (((i * patches_v + j) * (degree_u + 1) + k) * (degree_v + 1) + l). As fpt_curve_power.
+ *
+ * @param capacity   room in out, in numbers
+ * @param out_count  how many there are: 4 * patches * (degree_u + 1) * (degree_v + 1); FPT_INVALID_ARGUMENT when there is not room for all
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_power(const struct fpt_surface *surface,
+                             size_t capacity,
+                             double *out,
+                             size_t *out_count);
+
+/**
+ * The Bezier patch of powers of local parameters, 0 at the beginnings of the domain and 1 at its ends.
+ *
+ * @param degree_u      1 to 31
+ * @param degree_v      1 to 31
+ * @param domain        u0,u1,v0,v1
+ * @param coefficients  4 * (degree_u + 1) * (degree_v + 1) numbers: w x, w y, w z, w of s^k t^l at 4 * (k * (degree_v + 1) + l); polynomial:
+ *                      w is 1 for k = l = 0, else 0
+ * @param out           the surface; release it with fpt_surface_free
+ * @return FPT_UNSUPPORTED when a Bezier weight is not positive
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_from_power(size_t degree_u,
+                                  size_t degree_v,
+                                  const double *domain,
+                                  const double *coefficients,
+                                  struct fpt_surface **out);
+
+/**
  * Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.
  * Does nothing when `options` is NULL or struct_size is smaller than a size_t.
  * @since 0.1
@@ -5937,7 +6029,8 @@ fpt_status fpt_surface_skinned(const struct fpt_curve *const *sections,
  *
  * @param options   must not be NULL: tolerance
  * @param out       the handle; release it with fpt_surface_free
- * @param error     greatest distance from the exact swept surface at dense samples; above the tolerance with max_poles. NULL: not wanted
+ * @param error     no point is farther from the exact swept surface at its parameters, proven; above the tolerance where max_poles or rounding
+ *                  do not allow it, infinite where nothing is proven (rational spines of degrees above 13). NULL: not wanted
  * @param holonomy  radians by which the frame has turned about the tangent after one way round a closed spine; 0 for open ones. NULL: not
  *                  wanted
  * @return FPT_UNSUPPORTED for spines with a corner or that stand still, with the parameter

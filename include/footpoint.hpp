@@ -1762,6 +1762,9 @@ inline std::vector<curve> make_compatible(const std::vector<const curve *> &curv
     for (fpt_curve *c : out) owned.emplace_back(c);
     return owned;
 }
+inline std::vector<curve> make_compatible(std::initializer_list<const curve *> curves) {
+    return make_compatible(std::vector<const curve *>(curves));
+}
 inline fpt_curve_frame_record frame(const curve &c, double u, std::int32_t side = 1) {
     fpt_curve_frame_record out{};
     check(fpt_curve_frame(c.get(), u, side, &out));
@@ -1821,6 +1824,91 @@ inline fpt_difference difference(const surface &a, const surface &b) {
     fpt_difference out{};
     check(fpt_surface_difference(a.get(), b.get(), &out));
     return out;
+}
+
+inline bounded<surface> unclamp(const surface &s, std::uint32_t direction) {
+    return bound_surface([&](double *error, fpt_surface **out) { return fpt_surface_unclamp(s.get(), direction, error, out); });
+}
+inline std::pair<surface, surface> split(const surface &s, std::uint32_t direction, double at) {
+    fpt_surface *before = nullptr, *behind = nullptr;
+    check(fpt_surface_split(s.get(), direction, at, &before, &behind));
+    return {surface(before), surface(behind)};
+}
+inline surface with_domain(const surface &s, const std::array<double, 4> &domain) {
+    return make_surface([&](fpt_surface **out) { return fpt_surface_with_domain(s.get(), domain.data(), out); });
+}
+inline surface reparametrise(const surface &s, std::uint32_t direction, double speed) {
+    return make_surface([&](fpt_surface **out) { return fpt_surface_reparametrise(s.get(), direction, speed, out); });
+}
+inline surface affine(const surface &s, const std::array<double, 12> &matrix) {
+    return make_surface([&](fpt_surface **out) { return fpt_surface_affine(s.get(), matrix.data(), out); });
+}
+inline surface projective(const surface &s, const std::array<double, 16> &matrix) {
+    return make_surface([&](fpt_surface **out) { return fpt_surface_projective(s.get(), matrix.data(), out); });
+}
+inline surface bezier_form(const surface &s) {
+    return make_surface([&](fpt_surface **out) { return fpt_surface_bezier_form(s.get(), out); });
+}
+inline bounded<surface> join(const std::vector<const surface *> &surfaces, std::uint32_t direction, double tolerance) {
+    std::vector<const fpt_surface *> list;
+    for (const surface *s : surfaces) list.push_back(s->get());
+    return bound_surface([&](double *error, fpt_surface **out) {
+        return fpt_surface_join(list.data(), list.size(), direction, tolerance, error, out);
+    });
+}
+inline std::vector<surface> make_compatible(const std::vector<const surface *> &surfaces) {
+    std::vector<const fpt_surface *> list;
+    for (const surface *s : surfaces) list.push_back(s->get());
+    std::vector<fpt_surface *> out(list.size());
+    check(fpt_surface_make_compatible(list.data(), list.size(), out.data()));
+    std::vector<surface> owned;
+    owned.reserve(out.size());
+    for (fpt_surface *s : out) owned.emplace_back(s);
+    return owned;
+}
+inline std::vector<surface> make_compatible(std::initializer_list<const surface *> surfaces) {
+    return make_compatible(std::vector<const surface *>(surfaces));
+}
+/** As fpt_surface_continuity. */
+inline std::vector<fpt_knot_line> continuity(const surface &s, std::uint32_t direction, double tolerance = 1e-9) {
+    const auto knots = direction == FPT_DIRECTION_U ? s.pole_count_u() + s.degree_u() : s.pole_count_v() + s.degree_v();
+    std::vector<fpt_knot_line> out(knots + 1);
+    std::size_t count = 0;
+    check(fpt_surface_continuity(s.get(), direction, tolerance, out.size(), out.data(), &count));
+    out.resize(count);
+    return out;
+}
+/** As fpt_curve_power. */
+inline std::vector<double> power(const curve &c) {
+    std::vector<double> out(4 * (c.pole_count() - c.degree()) * (c.degree() + 1));
+    std::size_t count = 0;
+    check(fpt_curve_power(c.get(), out.size(), out.data(), &count));
+    out.resize(count);
+    return out;
+}
+/** As fpt_curve_from_power; the degree is that of the coefficients. */
+inline curve from_power(span<const double> coefficients, double start, double end) {
+    detail::require(coefficients.size() % 4 == 0 && coefficients.size() >= 8, "coefficients: four for each power, two powers at least");
+    return make_curve([&](fpt_curve **out) {
+        return fpt_curve_from_power(coefficients.size() / 4 - 1, start, end, coefficients.data(), out);
+    });
+}
+/** As fpt_surface_power. */
+inline std::vector<double> power(const surface &s) {
+    const std::size_t u = (s.pole_count_u() - s.degree_u()) * (s.degree_u() + 1), v = (s.pole_count_v() - s.degree_v()) * (s.degree_v() + 1);
+    std::vector<double> out(4 * u * v);
+    std::size_t count = 0;
+    check(fpt_surface_power(s.get(), out.size(), out.data(), &count));
+    out.resize(count);
+    return out;
+}
+/** As fpt_surface_from_power. */
+inline surface from_power(std::size_t degree_u, std::size_t degree_v, span<const double> coefficients, const std::array<double, 4> &domain) {
+    detail::require(degree_u <= 31 && degree_v <= 31 && coefficients.size() == 4 * (degree_u + 1) * (degree_v + 1),
+                    "coefficients: four for each pair of powers");
+    return make_surface([&](fpt_surface **out) {
+        return fpt_surface_from_power(degree_u, degree_v, domain.data(), coefficients.data(), out);
+    });
 }
 
 /** The arc length of a curve: owner of an fpt_arc_length. */

@@ -150,7 +150,9 @@ mod tests {
                 most = most.max((x - c).abs()).max((y - s).abs());
             }
             assert!(most <= error(range), "{range:?} {most:e} {:e}", error(range));
-            assert!(most <= 2e-15, "{range:?} {most:e}");
+            // The grain of the angle itself moves points as well.
+            let grain = 0.5 * f64::EPSILON * range[0].abs().max(range[1].abs());
+            assert!(most <= 2e-15 + grain, "{range:?} {most:e}");
             assert_eq!(poles[0][..2], quadrant_exact(range[0]));
             assert_eq!(poles[poles.len() - 1][..2], quadrant_exact(range[1]));
         }
