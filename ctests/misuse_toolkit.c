@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { ROOM = 4096, CURVES = 6, SURFACES = 5, CALLS = 12000 };
+enum { ROOM = 4096, CURVES = 6, SURFACES = 5, CALLS = 4000 };
 
 static uint64_t state = 11;
 static size_t below(size_t limit) { return (size_t)(next_random(&state) * (double)limit); }
