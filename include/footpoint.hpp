@@ -933,6 +933,11 @@ struct lift_options : fpt_lift_options {
     lift_options() noexcept : fpt_lift_options() { fpt_lift_options_init(this, sizeof(fpt_lift_options)); }
 };
 
+/** fpt_face_options that begin as the defaults. */
+struct face_options : fpt_face_options {
+    face_options() noexcept : fpt_face_options() { fpt_face_options_init(this, sizeof(fpt_face_options)); }
+};
+
 /** A pcurve that was pulled back, or the image of one, and how far it is proven to be from what it stands for. */
 struct proven_curve {
     curve shape;
@@ -982,7 +987,8 @@ struct face_feet {
 class face {
 public:
     /** As fpt_face_new: the pcurves of each loop in order; surface and pcurves may go before the face does. */
-    face(const surface &shape, span<const std::vector<const curve *>> loops) : handle_(make(shape, loops)) {}
+    face(const surface &shape, span<const std::vector<const curve *>> loops, const fpt_face_options &options = face_options())
+        : handle_(make(shape, loops, options)) {}
 
     /** Takes a handle over. */
     explicit face(fpt_face *handle) noexcept : handle_(handle) {}
@@ -1018,7 +1024,7 @@ private:
         void operator()(fpt_face *handle) const noexcept { fpt_face_free(handle); }
     };
 
-    static fpt_face *make(const surface &shape, span<const std::vector<const curve *>> loops) {
+    static fpt_face *make(const surface &shape, span<const std::vector<const curve *>> loops, const fpt_face_options &options) {
         std::vector<std::size_t> counts;
         std::vector<const fpt_curve *> pcurves;
         for (const std::vector<const curve *> &loop : loops) {
@@ -1032,7 +1038,7 @@ private:
         data.coedge_counts = counts.data();
         data.pcurves = pcurves.data();
         fpt_face *out = nullptr;
-        check(fpt_face_new(&data, &out));
+        check(fpt_face_new(&data, &options, &out));
         return out;
     }
 
@@ -1369,6 +1375,13 @@ private:
 /** Circle forms of u and v, as fpt_support_spline has them. */
 using circle_forms = std::array<std::uint32_t, 2>;
 
+/** An arc with its angle as parameter, as fpt_curve_arc_by_angle. */
+inline curve arc_by_angle(const point &center, const point &first, const point &second, const std::array<double, 2> &angles) {
+    fpt_curve *out = nullptr;
+    check(fpt_curve_arc_by_angle(center.data(), first.data(), second.data(), angles.data(), &out));
+    return curve(out);
+}
+
 /** fpt_elementary_data with the coordinate axes. */
 struct elementary_data : fpt_elementary_data {
     explicit elementary_data(fpt_elementary_kind kind, const std::array<double, 4> &domain) noexcept
@@ -1484,9 +1497,9 @@ public:
     fpt_trim *release() noexcept { return handle_.release(); }
 
     /** Prepared for point queries, as fpt_face_of_trim. */
-    face prepared() const {
+    face prepared(const fpt_face_options &options = face_options()) const {
         fpt_face *out = nullptr;
-        check(fpt_face_of_trim(get(), &out));
+        check(fpt_face_of_trim(get(), &options, &out));
         return face(out);
     }
 

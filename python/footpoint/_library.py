@@ -136,7 +136,7 @@ class ChangeOptions(ctypes.Structure):
 
 
 class ChangeSummary(ctypes.Structure):
-    _fields_ = [("deviation", c_double), ("surface_deviation", c_double), ("proven", c_uint32), ("reserved", c_uint32)]
+    _fields_ = [("deviation", c_double), ("surface_deviation", c_double), ("proven", c_uint32), ("surface_proven", c_uint32)]
 
 
 class Difference(ctypes.Structure):
@@ -167,8 +167,8 @@ class TrimFinding(ctypes.Structure):
 
 
 class TrimSummary(ctypes.Structure):
-    _fields_ = [("tolerance", c_double), ("largest_opening", c_double), ("largest_gap", c_double), ("segment_error", c_double),
-                ("proven", c_uint32), ("reserved", c_uint32), ("finding_count", c_size_t)]
+    _fields_ = [("tolerance", c_double), ("largest_opening", c_double), ("largest_gap", c_double), ("gap_bound", c_double),
+                ("segment_error", c_double), ("proven", c_uint32), ("reserved", c_uint32), ("finding_count", c_size_t)]
 
 
 class FitOptions(ctypes.Structure):
@@ -198,13 +198,18 @@ class LiftOptions(ctypes.Structure):
 
 
 class FacePlace(ctypes.Structure):
-    _fields_ = [("standing", c_uint32), ("loop_index", c_uint32), ("coedge_index", c_uint32), ("reserved", c_uint32),
+    _fields_ = [("standing", c_uint32), ("loop_index", c_uint32), ("coedge_index", c_uint32), ("flags", c_uint32),
                 ("parameter", c_double)]
 
 
 class FaceData(ctypes.Structure):
     _fields_ = [("struct_size", c_size_t), ("surface", c_void_p), ("loop_count", c_size_t), ("coedge_counts", c_void_p),
                 ("pcurves", c_void_p)]
+
+
+class FaceOptions(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("budget", c_uint64), ("should_stop", StopFunction), ("progress", ProgressFunction),
+                ("user", c_void_p)]
 
 
 class IntersectSurfacesOptions(ctypes.Structure):
@@ -243,7 +248,7 @@ class FairSummary(ctypes.Structure):
 
 class InspectOptions(ctypes.Structure):
     _fields_ = [("struct_size", c_size_t), ("domain", c_double * 4), ("relative", c_double), ("accuracy", c_double), ("budget", c_uint64),
-                ("should_stop", StopFunction), ("user", c_void_p)]
+                ("should_stop", StopFunction), ("user", c_void_p), ("side", c_uint32), ("reserved", c_uint32)]
 
 
 class InspectPictureOptions(ctypes.Structure):
@@ -253,7 +258,7 @@ class InspectPictureOptions(ctypes.Structure):
 
 class InspectRange(ctypes.Structure):
     _fields_ = [("least", c_double * 2), ("greatest", c_double * 2), ("at_least", c_double * 2), ("at_greatest", c_double * 2),
-                ("excluded", c_double), ("boxes", c_uint64), ("proven", c_uint32), ("reserved", c_uint32)]
+                ("excluded", c_double), ("moved", c_double), ("boxes", c_uint64), ("proven", c_uint32), ("reserved", c_uint32)]
 
 
 class InspectTooth(ctypes.Structure):
@@ -332,7 +337,7 @@ STRUCTS: dict[str, type[ctypes.Structure]] = {
     "fpt_change_summary": ChangeSummary, "fpt_trim_finding": TrimFinding, "fpt_trim_summary": TrimSummary,
     "fpt_difference": Difference, "fpt_estimate": Estimate, "fpt_curve_frame_record": CurveFrame, "fpt_joint": Joint, "fpt_knot_line": KnotLine,
     "fpt_deviation": Deviation, "fpt_pull_options": PullOptions, "fpt_lift_options": LiftOptions, "fpt_face_place": FacePlace,
-    "fpt_face_data": FaceData,
+    "fpt_face_data": FaceData, "fpt_face_options": FaceOptions,
     "fpt_intersect_surfaces_options": IntersectSurfacesOptions, "fpt_intersection_summary": IntersectionSummary,
     "fpt_intersection_branch": IntersectionBranch, "fpt_intersection_point": IntersectionPoint,
     "fpt_intersection_contact": IntersectionContact,
@@ -405,7 +410,7 @@ _STATUS = {
     "curve_frame": "pdip", "curve_continuity": "pdzpp", "curve_power": "pzpp", "curve_from_power": "zddpp",
     "surface_continuity": "pIdzpp", "surface_power": "pzpp", "surface_from_power": "zzppp",
     "pcurve_pull": "pppp", "pcurve_set_count": "pp", "pcurve_set_get": "pzpp", "pcurve_lift": "ppppp", "pcurve_deviation": "pppp",
-    "face_new": "pp", "face_of_trim": "pp", "face_classify": "ppzpp", "face_closest": "ppzppp", "face_preimage": "ppdpp",
+    "curve_arc_by_angle": "ppppp", "face_new": "ppp", "face_of_trim": "ppp", "face_classify": "ppzpp", "face_closest": "ppzppp", "face_preimage": "ppdpp",
     "intersect_surfaces": "pppp", "surface_intersection_summary": "pp", "surface_intersection_branch": "pzp",
     "surface_intersection_points": "pzzp", "surface_intersection_contact": "pzp", "surface_intersection_overlap": "pzp",
     "surface_intersection_undecided": "pzp", "surface_intersection_curves": "pppzdzppp",
@@ -428,7 +433,7 @@ _OTHER = {
     "surface_free": ("p", None), "foot_set_free": ("p", None), "scene_free": ("p", None),
     "change_options_init": ("pz", None), "relation_free": ("p", None), "transform_free": ("p", None), "support_free": ("p", None),
     "trim_free": ("p", None), "arc_length_free": ("p", None), "trim_report_free": ("p", None),
-    "pull_options_init": ("pz", None), "lift_options_init": ("pz", None), "pcurve_set_free": ("p", None), "face_free": ("p", None),
+    "pull_options_init": ("pz", None), "face_options_init": ("pz", None), "lift_options_init": ("pz", None), "pcurve_set_free": ("p", None), "face_free": ("p", None),
     "intersect_surfaces_options_init": ("pz", None), "surface_intersection_free": ("p", None),
     "fair_options_init": ("pz", None), "fair_report_free": ("p", None), "inspect_options_init": ("pz", None),
     "inspect_picture_options_init": ("pz", None), "inspect_set_free": ("p", None),
