@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { ROOM = 4096, CURVES = 6, SURFACES = 5, CALLS = 12000 };
+enum { ROOM = 4096, CURVES = 6, SURFACES = 5, CALLS = 4000 };
 
 static uint64_t state = 11;
 static size_t below(size_t limit) { return (size_t)(next_random(&state) * (double)limit); }
@@ -268,7 +268,8 @@ static void fits_and_offsets(void) {
         double *measured = below(2) == 0 ? NULL : results, *proven = below(2) == 0 ? NULL : results + 1;
         fill(numbers, 300);
         fill(more, 64);
-        const double tolerance = below(3) == 0 ? odd() : 0.05;
+        // What no double can meet takes its time.
+        const double tolerance = below(40) == 0 ? odd() : 0.05;
         const double *parameters = below(2) == 0 ? NULL : more;
         switch (i % 12) {
         case 0: is_ok(fpt_fit_parameters(perhaps(numbers), length_of(20), code(), perhaps(results))); break;

@@ -109,7 +109,7 @@ def reach_trims():
     nurbs.loops, face.to_nurbs([0, 2], 1e-3).face.loops, nurbs.to_elementary(sphere, [0, 2], 1e-3)
     face.change(exact, form, 1e-3), face.follow(form, 1e-2)
     nurbs.reparametrise(trims.Transform(trims.Relation.linear([0, 1], [1, 0]), trims.Relation.linear([0, 1], [0, 1])))
-    trims.TrimmedSurface.from_json(face.to_json())
+    trims.TrimmedSurface.from_json(face.to_json()), trims.arc_by_angle([0, 0, 0], [1, 0, 0], [0, 1, 0], 0, 1)
     open_loop = trims.TrimmedSurface(sphere, [trims.Loop([trims.Coedge.polyline([[0, 0], [1, 0], [1, 1]])])])
     assert open_loop.report().findings[0].kind == trims.FindingKind.OPEN
     parts = [trims.Support.elementary(3, [*ends, -1, 1], first=2.0) for ends in ([0, 2], [2, 5], [0, 5])]

@@ -72,7 +72,7 @@ def test_a_patch_goes_through_the_power_form_and_knot_lines_are_told():
         for j in range(3):
             domain = [*corners[0][i:i + 2], *corners[1][j:j + 2]]
             patch = operate.part(sheet, domain)
-            assert operate.difference(patch, operate.from_power(powers[i, j], domain)).bound < 1e-13
+            assert operate.difference(patch, operate.from_power(powers[i, j], domain)).bound < 1e-12
     lines = operate.continuity(sheet, direction="u")
     assert [line.value for line in lines] == list(corners[0][1:-1]) and all(line.order == 1 and line.multiplicity == 1 for line in lines)
     broken = operate.refine(sheet, [corners[1][1]] * 2, "v")

@@ -479,7 +479,7 @@ pub unsafe extern "C" fn fpt_surface_interpolate(
 
 /// A surface near a grid of points: knots are added in both directions until no point is farther than the tolerance from the surface at
 /// the point's parameters, an upper bound of its distance. Corners are met. Where the tolerance is not reached result->worst is above it.
-/// Cost: about 50 ms for 100,000 points; certified, 0.4 s.
+/// Cost: about 15 ms for 100,000 points; certified, 35 ms.
 ///
 /// @param points   x,y,z of point (i,j) at 3*(i*count_v + j)
 /// @param options  must not be NULL: tolerance; degrees, spacing, max_poles, certify, threads and should_stop count

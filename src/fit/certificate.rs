@@ -6,8 +6,8 @@
 //!   at_least                              the greatest lower bound so far
 //! ```
 //!
-//! A point whose upper bound is not above `at_least` is not the farthest: only those above are searched for globally, the worst first.
-//! Mostly these are a few dozen of any number of points.
+//! A point whose upper bound is not above `at_least` is not the farthest: only those above approach their feet, and only those still above
+//! are searched for globally, the worst first. Mostly these are a few dozen of any number of points.
 
 use crate::batch;
 use crate::bounds::{Aabb, Vector, dot, norm, sub};
@@ -16,8 +16,10 @@ use crate::error::Error;
 use crate::index::IndexedSurface;
 use crate::surface::Surface;
 
-use super::near::Poll;
 use super::parameters::check_points;
+
+/// Asked now and then; true stops the work.
+pub type Poll<'a> = &'a mut dyn FnMut() -> bool;
 
 /// What is known of the distances of the data points from a shape.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -137,16 +139,20 @@ pub(super) fn approached(
         }
         next = [0, 1].map(|k| (best[k] + moved[k]).clamp(ends[k].0, ends[k].1));
     }
-    // As every other distance of a foot: without the rounding of the point to its coordinates.
-    let distance = norm(surface.vector_from(point, best[0], best[1]));
-    FootPoint { u: best[0], v: best[1], distance, ..FootPoint::unreached() }
+    placed(surface, point, best)
+}
+
+/// The distance from the point at parameters, as every distance of a foot: without the rounding of that point to its coordinates.
+fn placed(surface: &Surface, point: Vector, [u, v]: [f64; 2]) -> FootPoint {
+    let distance = norm(surface.vector_from(point, u, v));
+    FootPoint { u, v, distance, ..FootPoint::unreached() }
 }
 
 /// Steps before the global searches.
 const STEPS: usize = 3;
 
-/// The distances of points from a surface, with proof, and the parameters of their feet. `hints` are parameters near the feet; without
-/// them every point is searched for globally.
+/// The distances of points from a surface, with proof, and parameters at which no point is farther away than `worst`. `hints` are parameters near
+/// the feet; without them every point is searched for globally.
 ///
 /// # Errors
 /// [`Error::Cancelled`] when `poll` said so; memory that could not be had.
@@ -163,15 +169,34 @@ pub fn certify(
     let from_hint = |i: usize, hint: Option<[f64; 2]>, workspace: &mut Workspace| {
         surface.closest(points[i], hint, &options, workspace, None)
     };
+    let shape = surface.surface();
     let near = |i: usize, workspace: &mut Workspace| match hints {
-        Some(hints) => approached(surface.surface(), points[i], hints[i], STEPS),
+        Some(hints) => placed(shape, points[i], hints[i]),
         None => from_hint(i, None, workspace),
     };
     let mut found = feet(points.len(), threads, &near, poll)?;
+    if let Some(hints) = hints {
+        // The farthest by their hints tell which points may be the farthest at all; only these approach their feet.
+        let mut order: Vec<usize> = (0..points.len()).collect();
+        let group = GROUP.min(points.len());
+        let farther = |&a: &usize, &b: &usize| found[b].distance.total_cmp(&found[a].distance);
+        order.select_nth_unstable_by(group - 1, farther);
+        let one = |k: usize, workspace: &mut Workspace| {
+            from_hint(order[k], Some(hints[order[k]]), workspace)
+        };
+        let probed = feet(group, threads, &one, poll)?;
+        let level = probed.iter().fold(0.0, |level: f64, foot| level.max(foot.lower_bound));
+        order.retain(|&i| found[i].distance > level);
+        let one = |k: usize, _: &mut Workspace| {
+            approached(shape, points[order[k]], hints[order[k]], STEPS)
+        };
+        let nearer = feet(order.len(), threads, &one, poll)?;
+        order.iter().zip(nearer).for_each(|(&i, foot)| found[i] = foot);
+    }
     let ask = |i: usize, foot: &FootPoint, workspace: &mut Workspace| {
         from_hint(i, Some([foot.u, foot.v]), workspace)
     };
-    let size = size(surface.surface().poles());
+    let size = size(shape.poles());
     let all = farthest(&mut found, size, threads, &ask, poll)?;
     Ok((found.iter().map(|foot| [foot.u, foot.v]).collect(), all))
 }

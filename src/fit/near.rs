@@ -14,7 +14,7 @@
 //! Reference: Hoschek, *Intrinsic parametrization for approximation*, Computer Aided Geometric Design 5, 1988.
 
 use super::adaptive::cuts;
-use super::certificate::{Certificate, approached, certify, farthest, feet, size};
+use super::certificate::{Certificate, Poll, approached, certify, farthest, feet, size};
 use super::parameters::{check_parameters, check_points};
 use super::scattered::Design;
 use super::{Adaptive, Ends, fitted};
@@ -54,17 +54,11 @@ impl Default for NearOptions {
 pub struct Near<S, P> {
     /// The result.
     pub shape: S,
-    /// The parameters of every point's foot.
+    /// Parameters of a place near every point: its foot, or one that is not farther away than the worst point's.
     pub parameters: Vec<P>,
     /// The distances.
     pub certificate: Certificate,
 }
-
-/// Asked now and then; true stops the work.
-pub type Poll<'a> = &'a mut dyn FnMut() -> bool;
-
-/// Feet that reduce the worst distance to this share call for another fit at them.
-const PAYS: f64 = 0.5;
 
 const LOCAL: QueryOptions = QueryOptions {
     tolerance: 0.0,
@@ -280,8 +274,7 @@ pub fn surface_near(
     loop {
         let (mut surface, mut missed) = surface_of(points, &at, &values, options.degrees)?;
         for correction in 1..=options.corrections {
-            let before = worst(&missed);
-            if before <= options.tolerance {
+            if worst(&missed) <= options.tolerance {
                 break;
             }
             let ask = |i: usize, _: &mut Workspace| approached(&surface, points[i], at[i], 1);
@@ -289,13 +282,15 @@ pub fn surface_near(
             for (i, foot) in found.iter().enumerate() {
                 (at[i], missed[i]) = ([foot.u, foot.v], foot.distance);
             }
-            // Another fit on the same knots pays only where the parameters were what was wrong.
-            let after = worst(&missed);
-            let pays = after > options.tolerance && after < PAYS * before;
-            if correction == options.corrections || !pays {
+            let reached = worst(&missed);
+            if correction == options.corrections || reached <= options.tolerance {
                 break;
             }
-            (surface, missed) = surface_of(points, &at, &values, options.degrees)?;
+            let (again, now) = surface_of(points, &at, &values, options.degrees)?;
+            if worst(&now) >= reached {
+                break;
+            }
+            (surface, missed) = (again, now);
         }
         let error = worst(&missed);
         let done = error <= options.tolerance;
@@ -346,7 +341,8 @@ fn surface_of(
     Ok((surface, missed))
 }
 
-/// New knots, in the cells that miss a point, across their longer side, or both when they are nearly square.
+/// New knots in the middle of spans: in the cells that miss a point, across their longer side, or both when they are nearly square. Halves
+/// only: as long as the detail is not resolved, errors fall faster than any order says, and more pieces are more poles.
 fn new_knots(
     surface: &Surface,
     at: &[[f64; 2]],
@@ -376,18 +372,16 @@ fn new_knots(
     }
     list.sort_by(|a, b| b.0.total_cmp(&a.0));
     let (mut grown, mut out) = (counts, [Vec::new(), Vec::new()]);
-    for (missed, k, span) in list {
+    for (_, k, span) in list {
+        if (grown[k] + 1).saturating_mul(grown[1 - k]) > limit {
+            continue;
+        }
         let [low, high] = [knots[k].values()[span], knots[k].values()[span + 1]];
         let (start, end) = knots[k].domain();
-        // The error of a span of length h falls like h^(degree + 1).
-        let order = (options.degrees[k] + 1) as f64;
-        let wished = (missed / options.tolerance).power(1.0 / order).round().clamp(2.0, 4.0);
-        let room = (limit / grown[1 - k]).saturating_sub(grown[k]);
-        let pieces = (wished as usize).min(room + 1);
         // A span that thin holds no detail: the points contradict each other there.
         if high - low > 1e-6 * (end - start) {
-            out[k].extend((1..pieces).map(|j| low + (high - low) * (j as f64 / pieces as f64)));
-            grown[k] += pieces - 1;
+            out[k].push(0.5 * low + 0.5 * high);
+            grown[k] += 1;
         }
     }
     out
