@@ -67,7 +67,8 @@ static void made_curve(fpt_status status) {
     if (is_ok(status)) {
         CHECK_OK(fpt_curve_domain(curve, u));
         CHECK(u[0] < u[1]);
-        (void)fpt_curve_pole_count(curve, &poles);
+        CHECK_OK(fpt_curve_pole_count(curve, &poles));
+        CHECK(poles > 0);
         fpt_curve_free(curve);
     } else {
         CHECK(curve == NULL);
