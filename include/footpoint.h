@@ -690,6 +690,10 @@ typedef enum fpt_branch_end {
      * An undecided box is there.
      */
     FPT_BRANCH_END_UNDECIDED = 3,
+    /**
+     * A trim: end_index is 0 for one of A, 1 for one of B.
+     */
+    FPT_BRANCH_END_TRIM = 4,
 } fpt_branch_end;
 
 /**
@@ -6875,6 +6879,26 @@ fpt_status fpt_intersect_surfaces(const struct fpt_surface *a,
                                   const struct fpt_surface *b,
                                   const struct fpt_intersect_surfaces_options *options,
                                   struct fpt_surface_intersection **out);
+
+/**
+ * All that two faces have in common: as fpt_intersect_surfaces of their supports, cut off at their trims (FPT_BRANCH_END_TRIM). A whole
+ * support is a face too: fpt_trim_whole.
+ *
+ * Parameters are those of the supports; elementary ones are intersected in their exact NURBS form. A support given by a function is meshed
+ * and walked along: nothing is proven then, and one undecided box is all of both domains. A face holds its border; what runs along
+ * a trim is kept, and listed as undecided.
+ *
+ * @param a, b     the faces
+ * @param options  NULL: the defaults
+ * @param out      the result; release it with fpt_surface_intersection_free
+ * @return FPT_BUDGET_EXHAUSTED with a result that misses what lies in its undecided boxes
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_intersect_trims(const struct fpt_trim *a,
+                               const struct fpt_trim *b,
+                               const struct fpt_intersect_surfaces_options *options,
+                               struct fpt_surface_intersection **out);
 
 /**
  * Counts and verdicts.

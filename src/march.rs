@@ -1,7 +1,7 @@
 //! Surface-surface intersection: all branches, with a proof that none is missing, or with what could not be decided.
 //!
 //! ```text
-//!   A, B -> pairs of parts -> empty | one arc, proven | halve | touch here          `pieces`, `pair`, `search`
+//!   A, B -> pairs of parts -> empty | one arc, proven | halve | touch here          `pieces`, `arc`, `pair`, `search`
 //!        -> arcs walked over knot lines and seams -> branches, refined to the chord  `join`
 //!        -> touching curves traced, points and areas classified                      `contact`, `cluster`
 //! ```
@@ -12,12 +12,20 @@
 //!
 //! References: Sinha, Klassen, Wang 1985 and Sederberg, Meyers 1988 (loops and normals); Krawczyk 1969 (the test of an arc); Ye,
 //! Maekawa 1999 (contact).
-//! Limits: NURBS only; surfaces given by functions are not taken. Two arcs that run on both sides of a knot line at a distance below
+//! Faces, elementary surfaces and surfaces given by functions: [`faces`]. Limits: two arcs that run on both sides of a knot line at a distance below
 //! the rounding are one.
+
+mod bends;
 
 mod pieces;
 
+mod system;
+
+mod arc;
+
 mod pair;
+
+pub mod shape;
 
 mod contact;
 
@@ -36,6 +44,12 @@ pub mod follow;
 pub mod triangles;
 
 pub mod curves;
+
+mod functions;
+
+pub mod faces;
+
+pub mod split;
 
 use crate::bounds::{HALF_ULP, Vector, add, norm, scaled, sub};
 use crate::closest::{QueryOptions, Workspace};
@@ -58,6 +72,18 @@ pub struct MarchOptions {
     pub chord: f64,
     /// Most pairs of parts; 0: [`DEFAULT_BUDGET`].
     pub budget: u64,
+}
+
+impl MarchOptions {
+    /// # Errors
+    /// [`Error::InvalidArgument`] for a length that is negative or not finite.
+    fn checked(self) -> Result<Self, Error> {
+        if !self.chord.is_finite() || self.chord < 0.0 {
+            let text = format!("chord: {} is not a length", self.chord);
+            return Err(Error::InvalidArgument(text));
+        }
+        Ok(self)
+    }
 }
 
 /// A point of both surfaces.
@@ -83,6 +109,8 @@ pub enum End {
     Contact(usize),
     /// An undecided box is there.
     Undecided,
+    /// A trim of A (0) or B (1): see [`faces`].
+    Trim(u8),
 }
 
 /// A curve of the intersection.
@@ -97,9 +125,19 @@ pub struct Branch {
     pub is_tangential: bool,
     /// Greatest distance between the two surface points of one of its points.
     pub gap: f64,
+    /// Proven: between two points the branch stays within this of their chord, a length. Infinite for a tangential branch; the last
+    /// piece beside a contact is not counted, it is about as long as the contact's radius.
+    pub chord: f64,
+    /// Proven: between two points u, v, s, t stay within these of their straight line. Infinite where `chord` is.
+    pub bulge: [f64; 4],
+    /// For each chord the parameter over which it is a graph ([`Branch::ANY`]: not known, [`Branch::JUMP`]: it passes a seam).
+    held: Vec<u8>,
 }
 
 impl Branch {
+    const ANY: u8 = 4;
+    const JUMP: u8 = 5;
+
     /// Whether it is a loop.
     pub fn is_closed(&self) -> bool {
         self.ends[0] == End::Closed
@@ -221,9 +259,7 @@ pub fn intersect(
     options: &MarchOptions,
     poll: &mut dyn FnMut(u64, u64) -> bool,
 ) -> Result<Intersection, Error> {
-    if !options.chord.is_finite() || options.chord < 0.0 {
-        return Err(Error::InvalidArgument(format!("chord: {} is not a length", options.chord)));
-    }
+    let options = options.checked()?;
     let frames = Frames::new(a.surface(), b.surface())?;
     let [sa, sb] = &frames.surfaces;
     let chord = if options.chord > 0.0 { options.chord * frames.scale } else { 1e-3 };
@@ -257,22 +293,25 @@ pub fn intersect(
         });
     }
     for chain in chains {
-        made.push(chain.places, chain.stops, false);
+        let bounds = (chain.chord / frames.scale, chain.bulge, chain.held);
+        made.push(chain.places, chain.stops, Some(bounds));
     }
     for ridge in ridges {
-        made.push(ridge.places, ridge.stops, true);
+        made.push(ridge.places, ridge.stops, None);
     }
     made.join_at_tips();
-    let out = &mut made.out;
-    let transversal = out
-        .branches
-        .iter()
-        .all(|branch| !branch.is_tangential && !branch.ends.contains(&End::Undecided));
-    out.is_proven = transversal
+    made.out.is_proven = settled(&made.out);
+    Ok(made.out)
+}
+
+/// Whether every branch is transversal, and nothing touches, coincides, or is undecided.
+fn settled(out: &Intersection) -> bool {
+    let transversal =
+        |branch: &Branch| !branch.is_tangential && !branch.ends.contains(&End::Undecided);
+    out.branches.iter().all(transversal)
         && out.contacts.is_empty()
         && out.overlaps.is_empty()
-        && out.undecided.is_empty();
-    Ok(made.out)
+        && out.undecided.is_empty()
 }
 
 fn region(low: [f64; 4], high: [f64; 4]) -> Region {
@@ -416,6 +455,8 @@ impl Maker<'_, '_> {
                 points[tip].uv = keep(point.uv, near.uv, at_edge(self.a, point.uv));
                 points[tip].st = keep(point.st, near.st, at_edge(self.b, point.st));
             };
+            // Of joined branches it is not known over which parameter each chord is a graph.
+            self.out.branches[i].held.clear();
             let mut one = std::mem::take(&mut self.out.branches[i].points);
             tidy(&mut one, first);
             if i == j {
@@ -434,9 +475,12 @@ impl Maker<'_, '_> {
                 one.extend(two);
                 let ends =
                     [self.out.branches[i].ends[1 - first], self.out.branches[j].ends[1 - second]];
-                let gap = self.out.branches[i].gap.max(self.out.branches[j].gap);
+                let other = self.out.branches[j].clone();
                 let branch = &mut self.out.branches[i];
-                (branch.points, branch.ends, branch.gap) = (one, ends, gap);
+                (branch.points, branch.ends) = (one, ends);
+                branch.gap = branch.gap.max(other.gap);
+                branch.chord = branch.chord.max(other.chord);
+                branch.bulge = [0, 1, 2, 3].map(|q| branch.bulge[q].max(other.bulge[q]));
                 self.out.branches.remove(j);
             }
             self.out.contacts.remove(k);
@@ -458,7 +502,16 @@ impl Maker<'_, '_> {
         (far(best) <= reach).then_some(best)
     }
 
-    fn push(&mut self, places: Vec<Place>, stops: [Stop; 2], is_tangential: bool) {
+    /// `bounds`: chord, bulge and held parameters of a transversal branch.
+    fn push(
+        &mut self,
+        places: Vec<Place>,
+        stops: [Stop; 2],
+        bounds: Option<(f64, [f64; 4], Vec<u8>)>,
+    ) {
+        let is_tangential = bounds.is_none();
+        let (chord, bulge, mut held) =
+            bounds.unwrap_or((f64::INFINITY, [f64::INFINITY; 4], Vec::new()));
         let mut points: Vec<MarchPoint> = places.iter().map(|place| self.point(place)).collect();
         let mut ends = [End::Undecided; 2];
         for k in 0..2 {
@@ -471,9 +524,11 @@ impl Maker<'_, '_> {
                         Some(contact) => {
                             let place = self.out.contacts[contact].place;
                             if k == 0 {
-                                points.insert(0, place)
+                                points.insert(0, place);
+                                held.insert(0, Branch::ANY);
                             } else {
-                                points.push(place)
+                                points.push(place);
+                                held.push(Branch::ANY);
                             }
                             End::Contact(contact)
                         }
@@ -490,6 +545,6 @@ impl Maker<'_, '_> {
             }
         }
         let gap = points.iter().fold(0.0f64, |m, p| m.max(self.gap(p)));
-        self.out.branches.push(Branch { points, ends, is_tangential, gap });
+        self.out.branches.push(Branch { points, ends, is_tangential, gap, chord, bulge, held });
     }
 }

@@ -9,10 +9,12 @@ use super::memory::{output, place, shared, write_array};
 use super::options::{SelfSized, check_length, sized};
 use super::query::Callbacks;
 use super::surface::{self, fpt_surface};
+use super::trim::{self, fpt_trim};
 use super::{Failure, fpt_status, guard};
 use crate::curve::Curve;
 use crate::index::IndexedCurve;
 use crate::march::curves::curves;
+use crate::march::faces::intersect_faces;
 use crate::march::{ContactKind, End, Intersection, MarchOptions, MarchPoint, Region, intersect};
 use std::ffi::{c_int, c_void};
 use std::mem::{offset_of, size_of};
@@ -35,6 +37,8 @@ pub enum fpt_branch_end {
     FPT_BRANCH_END_CONTACT = 2,
     /// An undecided box is there.
     FPT_BRANCH_END_UNDECIDED = 3,
+    /// A trim: end_index is 0 for one of A, 1 for one of B.
+    FPT_BRANCH_END_TRIM = 4,
 }
 
 /// What a contact is, for fpt_intersection_contact.kind.
@@ -217,28 +221,78 @@ pub unsafe extern "C" fn fpt_intersect_surfaces(
     // SAFETY: the header asks for live handles, options and room for a handle.
     guard(|| unsafe {
         let (a, b) = (surface::indexed_as("a", a)?, surface::indexed_as("b", b)?);
-        let given = if options.is_null() {
-            fpt_intersect_surfaces_options::default()
-        } else {
-            sized("options", options)?
-        };
-        check_length("chord", given.chord)?;
+        let (asked, callbacks) = asked(options)?;
         let out = place("out", out)?;
-        let callbacks = Callbacks::telling(given.should_stop, given.progress, given.user);
-        let asked = MarchOptions { chord: given.chord, budget: given.budget };
         let found = intersect(a, b, &asked, &mut |done, left| {
             callbacks.poll(done as usize, (done + left) as usize)
         })?;
-        let (exhausted, left) = (found.exhausted, found.undecided.len());
-        *out = Box::into_raw(Box::new(fpt_surface_intersection { found }));
-        if !exhausted {
-            return Ok(());
-        }
-        let text = format!(
-            "budget: ran out with {left} boxes undecided; see fpt_surface_intersection_undecided"
-        );
-        Err(Failure::Budget(text))
+        handed_out(found, out)
     })
+}
+
+/// All that two faces have in common: as fpt_intersect_surfaces of their supports, cut off at their trims (FPT_BRANCH_END_TRIM). A whole
+/// support is a face too: fpt_trim_whole.
+///
+/// Parameters are those of the supports; elementary ones are intersected in their exact NURBS form. A support given by a function is meshed
+/// and walked along: nothing is proven then, and one undecided box is all of both domains. A face holds its border; what runs along
+/// a trim is kept, and listed as undecided.
+///
+/// @param a, b     the faces
+/// @param options  NULL: the defaults
+/// @param out      the result; release it with fpt_surface_intersection_free
+/// @return FPT_BUDGET_EXHAUSTED with a result that misses what lies in its undecided boxes
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_intersect_trims(
+    a: *const fpt_trim,
+    b: *const fpt_trim,
+    options: *const fpt_intersect_surfaces_options,
+    out: *mut *mut fpt_surface_intersection,
+) -> fpt_status {
+    // SAFETY: the header asks for live handles, options and room for a handle.
+    guard(|| unsafe {
+        let (a, b) = (trim::face("a", a)?, trim::face("b", b)?);
+        let (asked, callbacks) = asked(options)?;
+        let out = place("out", out)?;
+        let found = intersect_faces(a, b, &asked, &mut |done, left| {
+            callbacks.poll(done as usize, (done + left) as usize)
+        })?;
+        handed_out(found, out)
+    })
+}
+
+/// The options of a call; NULL: the defaults.
+///
+/// # Safety
+/// NULL or options with a size that is true.
+unsafe fn asked(
+    options: *const fpt_intersect_surfaces_options,
+) -> Result<(MarchOptions, Callbacks), Failure> {
+    let given = if options.is_null() {
+        fpt_intersect_surfaces_options::default()
+    } else {
+        // SAFETY: the caller vouches for it.
+        unsafe { sized("options", options)? }
+    };
+    check_length("chord", given.chord)?;
+    let callbacks = Callbacks::telling(given.should_stop, given.progress, given.user);
+    Ok((MarchOptions { chord: given.chord, budget: given.budget }, callbacks))
+}
+
+/// Hands a result to the caller, with the failure of a budget that ran out.
+fn handed_out(
+    found: Intersection,
+    out: &mut *mut fpt_surface_intersection,
+) -> Result<(), Failure> {
+    let (exhausted, left) = (found.exhausted, found.undecided.len());
+    *out = Box::into_raw(Box::new(fpt_surface_intersection { found }));
+    if !exhausted {
+        return Ok(());
+    }
+    let text =
+        format!("budget: ran out with {left} boxes undecided; see fpt_surface_intersection_undecided");
+    Err(Failure::Budget(text))
 }
 
 /// Counts and verdicts.
@@ -284,6 +338,7 @@ pub unsafe extern "C" fn fpt_surface_intersection_branch(
             End::Border(side) => (fpt_branch_end::FPT_BRANCH_END_BORDER, u32::from(side)),
             End::Contact(contact) => (fpt_branch_end::FPT_BRANCH_END_CONTACT, contact as u32),
             End::Undecided => (fpt_branch_end::FPT_BRANCH_END_UNDECIDED, 0),
+            End::Trim(whose) => (fpt_branch_end::FPT_BRANCH_END_TRIM, u32::from(whose)),
         };
         let [(first, i), (last, j)] = branch.ends.map(end);
         *place("out", out)? = fpt_intersection_branch {

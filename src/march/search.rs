@@ -11,7 +11,8 @@
 //! point takes a constant number of pairs a level.
 
 use super::contact::{into_domain, look, settle};
-use super::pair::{Arc, Clip, Verdict, judge};
+use super::arc::{Arc, Clip};
+use super::pair::{Verdict, judge};
 use super::pieces::{Part, Pieces};
 use crate::bounds::{Aabb, HALF_ULP, Vector, cross, dot, norm, sub};
 use crate::error::Error;
@@ -171,7 +172,7 @@ impl<'a> Search<'a> {
         self.judged += 1;
         let (a, b) = (&self.a.parts[i as usize], &self.b.parts[j as usize]);
         let by_size = size(a) >= size(b);
-        let halve_first = match judge(a, b, self.error) {
+        let halve_first = match judge([&self.a, &self.b], [a, b], self.error) {
             Verdict::Empty => return,
             Verdict::Arc(arc) => match self.keep(*arc, [i, j]) {
                 true => return,
