@@ -8,9 +8,7 @@ mod march_shapes;
 use footpoint::index::IndexedSurface;
 use footpoint::march::{MarchOptions, intersect};
 use footpoint::surface::Surface;
-use march_shapes::{
-    Motion, bumps, cone, cylinder, lid, moved, plane, sphere, torus, wave, z_to_x,
-};
+use march_shapes::{Motion, bumps, cone, cylinder, lid, moved, plane, sphere, torus, wave, z_to_x};
 use std::time::Instant;
 
 /// Seconds that this thread was on a processor: other work on the machine does not count.

@@ -114,17 +114,17 @@ fn elementary_supports_keep_their_angles() {
     for p in found.branches.iter().flat_map(|b| &b.points) {
         let (x, y) = (tube.evaluate(p.uv[0], p.uv[1]), ball.evaluate(p.st[0], p.st[1]));
         assert!(norm(sub(x, p.point)) < 1e-13 && norm(sub(y, p.point)) < 1e-13);
-        assert!((p.point[1].atan2(p.point[0]).rem_euclid(TAU) - p.uv[0]).abs() < 1e-12
-            || p.uv[0] > TAU - 1e-12);
+        assert!(
+            (p.point[1].atan2(p.point[0]).rem_euclid(TAU) - p.uv[0]).abs() < 1e-12
+                || p.uv[0] > TAU - 1e-12
+        );
     }
 }
 
 #[test]
 fn functions_are_met_and_never_said_to_be_proven() {
-    let bowl = CallbackSurface::new(
-        [-1.0, 1.0, -1.0, 1.0],
-        SurfaceBounds::default(),
-        |u, v, _, out| {
+    let bowl =
+        CallbackSurface::new([-1.0, 1.0, -1.0, 1.0], SurfaceBounds::default(), |u, v, _, out| {
             *out = [
                 [u, v, u * u + v * v],
                 [1.0, 0.0, 2.0 * u],
@@ -134,9 +134,8 @@ fn functions_are_met_and_never_said_to_be_proven() {
                 [0.0, 0.0, 2.0],
             ];
             Some(2)
-        },
-    )
-    .unwrap();
+        })
+        .unwrap();
     let a = TrimmedSurface::whole(Support::Callback(std::sync::Arc::new(bowl))).unwrap();
     let found = meet(&a, &whole(level(0.3)));
     assert!(!found.is_proven && found.undecided.len() == 1);
@@ -151,7 +150,10 @@ fn functions_are_met_and_never_said_to_be_proven() {
 fn area(face: &TrimmedSurface) -> f64 {
     let of = |pcurve: &Pcurve| {
         let at = |k: u32| pcurve.evaluate(pcurve.parameter_at(f64::from(k) / 512.0));
-        (0..512).map(|k| (at(k), at(k + 1))).map(|(p, q)| 0.5 * (p[0] * q[1] - p[1] * q[0])).sum::<f64>()
+        (0..512)
+            .map(|k| (at(k), at(k + 1)))
+            .map(|(p, q)| 0.5 * (p[0] * q[1] - p[1] * q[0]))
+            .sum::<f64>()
     };
     face.coedges().map(|(_, _, coedge)| of(&coedge.pcurve)).sum()
 }

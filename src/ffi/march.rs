@@ -281,17 +281,15 @@ unsafe fn asked(
 }
 
 /// Hands a result to the caller, with the failure of a budget that ran out.
-fn handed_out(
-    found: Intersection,
-    out: &mut *mut fpt_surface_intersection,
-) -> Result<(), Failure> {
+fn handed_out(found: Intersection, out: &mut *mut fpt_surface_intersection) -> Result<(), Failure> {
     let (exhausted, left) = (found.exhausted, found.undecided.len());
     *out = Box::into_raw(Box::new(fpt_surface_intersection { found }));
     if !exhausted {
         return Ok(());
     }
-    let text =
-        format!("budget: ran out with {left} boxes undecided; see fpt_surface_intersection_undecided");
+    let text = format!(
+        "budget: ran out with {left} boxes undecided; see fpt_surface_intersection_undecided"
+    );
     Err(Failure::Budget(text))
 }
 

@@ -15,7 +15,14 @@ use super::system::{inverse, others, system};
 use crate::bounds::{Vector, dot, norm, scaled};
 
 /// What is left of the estimates for rounding of nodes.
-const CARE: f64 = 1.0 + 1e-6;
+const CARE: f64 = 1.0 + 1e-4;
+
+/// Newton's steps, in half widths, below which a node is good enough (its square is what is left), and a solution is.
+const NODE: f64 = 1e-5;
+const SOLUTION: f64 = 1e-8;
+
+/// How far a node may be off, in half widths.
+const OFF: f64 = 1e-9;
 
 /// Rows of a matrix applied to the second derivatives of both surfaces: bounds for uu, uv, vv of either.
 pub type Bent = [[f64; 3]; 2];
@@ -23,7 +30,9 @@ pub type Bent = [[f64; 3]; 2];
 /// A row applied to the second derivatives of both surfaces.
 pub fn bent(row: Vector, bends: [&Bends; 2]) -> Bent {
     let size = [row[0].abs(), row[1].abs(), row[2].abs()];
-    bends.map(|b| [0, 1, 2].map(|n| dot(row, b.middle[n]).abs() + dot(size, b.spread[n])))
+    let one = |b: &Bends, n: usize| dot(row, b.middle[n]).abs() + dot(size, b.spread[n]);
+    let of = |b: &Bends| [one(b, 0), one(b, 1), one(b, 2)];
+    [of(bends[0]), of(bends[1])]
 }
 
 /// Greatest change of the slopes along both parameters of a surface within half widths `r`.
@@ -95,6 +104,14 @@ pub struct Frame<'a> {
     pub k: usize,
 }
 
+/// Why an arc is not found in this way.
+enum Failure {
+    /// A solution lies outside of the reach.
+    Leaves,
+    /// More nodes might do.
+    Bends,
+}
+
 /// Newton's iteration for the three others at `x`: where it ends, and the columns there, in half widths.
 fn newton(
     pieces: [&Pieces; 2],
@@ -103,6 +120,7 @@ fn newton(
     k: usize,
     x: f64,
     mut y: [f64; 3],
+    enough: f64,
 ) -> Option<([f64; 3], [Vector; 4])> {
     let o = others(k);
     let mut last = f64::INFINITY;
@@ -122,7 +140,7 @@ fn newton(
         }
         // Quadratic from here: the next step would be below the last digit. Where the surfaces meet at a small angle, steps stop
         // falling at what the last digits are worth.
-        if moved < 1e-8 || (moved < 1e-3 && moved > 0.25 * last) {
+        if moved < enough || (moved < 1e-3 && moved > 0.25 * last) {
             return Some((y, columns));
         }
         last = moved;
@@ -148,49 +166,70 @@ impl Frame<'_> {
         forward: bool,
         guess: impl Fn(f64) -> [f64; 3],
     ) -> Option<Arc> {
-        [3usize, 7, 15].into_iter().find_map(|count| {
-            let step = 0.5 * (x1 - x0) / count as f64;
-            let at = |j: usize| x0 + (2 * j + 1) as f64 * step;
-            let start = count / 2;
-            let mut nodes = vec![self.node(at(start), guess(at(start)), step)?; count];
-            for j in (0..start).rev().chain(start + 1..count) {
-                let from = nodes[if j < start { j + 1 } else { j - 1 }];
-                let x = at(j);
-                let y = [0, 1, 2].map(|i| from.y[i] + (x - from.x) * from.slope[i]);
-                nodes[j] = self.node(x, y, step)?;
+        for count in [5, 13] {
+            match self.arc_of(count, [x0, x1], forward, &guess) {
+                Ok(arc) => return Some(arc),
+                Err(Failure::Leaves) => return None,
+                Err(Failure::Bends) => {}
             }
-            Some(Arc {
-                patches: self.patches,
-                middle: self.middle,
-                half: self.half,
-                k: self.k,
-                x: [x0, x1],
-                forward,
-                nodes,
-                begin: x0,
-                step,
-            })
+        }
+        None
+    }
+
+    fn arc_of(
+        &self,
+        count: usize,
+        [x0, x1]: [f64; 2],
+        forward: bool,
+        guess: impl Fn(f64) -> [f64; 3],
+    ) -> Result<Arc, Failure> {
+        let step = 0.5 * (x1 - x0) / count as f64;
+        let at = |j: usize| x0 + (2 * j + 1) as f64 * step;
+        let start = count / 2;
+        let mut nodes = vec![self.node(at(start), guess(at(start)), step)?; count];
+        for j in (0..start).rev().chain(start + 1..count) {
+            let side = |n: usize| if j < start { j + n } else { j - n };
+            let (from, x) = (nodes[side(1)], at(j));
+            // The slope half way, by those of the two nodes before.
+            let before = if j.abs_diff(start) > 1 { nodes[side(2)] } else { from };
+            let slope = |i: usize| 1.5 * from.slope[i] - 0.5 * before.slope[i];
+            let y = [0, 1, 2].map(|i| from.y[i] + (x - from.x) * slope(i));
+            nodes[j] = self.node(x, y, step)?;
+        }
+        Ok(Arc {
+            patches: self.patches,
+            middle: self.middle,
+            half: self.half,
+            k: self.k,
+            x: [x0, x1],
+            forward,
+            nodes,
+            begin: x0,
+            step,
         })
     }
 
     /// The solution at `x`, proven to go on in the reach for `step` on both sides.
-    fn node(&self, x: f64, guess: [f64; 3], step: f64) -> Option<Node> {
+    fn node(&self, x: f64, guess: [f64; 3], step: f64) -> Result<Node, Failure> {
         let place = (self.middle, self.half);
-        let (y, columns) = newton(self.pieces, self.patches, place, self.k, x, guess)?;
+        let (y, columns) = newton(self.pieces, self.patches, place, self.k, x, guess, NODE)
+            .ok_or(Failure::Leaves)?;
+        if y.iter().any(|y| y.abs() > REACH) {
+            return Err(Failure::Leaves);
+        }
         let o = others(self.k);
-        let rows = inverse(o.map(|c| columns[c]))?;
+        let rows = inverse(o.map(|c| columns[c])).ok_or(Failure::Leaves)?;
         let slope = rows.map(|r| -dot(r, columns[self.k]));
         let h = rows.map(|r| bent(r, self.bends));
         let mut t = [1.0; 4];
         for i in 0..3 {
             t[o[i]] = slope[i].abs();
         }
-        let seconds = |t: [f64; 4]| {
-            h.map(|h| CARE * (form(h[0], [t[0], t[1]]) + form(h[1], [t[2], t[3]])))
-        };
+        let seconds =
+            |t: [f64; 4]| h.map(|h| CARE * (form(h[0], [t[0], t[1]]) + form(h[1], [t[2], t[3]])));
         let greatest = |x: [f64; 3]| x[0].max(x[1]).max(x[2]);
         // Supposed: no slope changes by more than `most` x the way. What follows from it must not exceed it.
-        let most = 2.0 * greatest(seconds(t));
+        let most = 3.0 * greatest(seconds(t));
         let mut wide = t;
         for &c in &o {
             wide[c] += most * step;
@@ -202,17 +241,17 @@ impl Frame<'_> {
         });
         let lost = greatest(lost);
         if lost.is_nan() || lost > 0.5 {
-            return None;
+            return Err(Failure::Bends);
         }
         let second = seconds(wide);
         let bend = second.map(|s| s + lost / (1.0 - lost) * greatest(second));
         if greatest(bend) > most {
-            return None;
+            return Err(Failure::Bends);
         }
         let reaches =
             |i: usize| y[i].abs() + CARE * (slope[i].abs() * step + 0.5 * bend[i] * step * step);
-        if (0..3).any(|i| reaches(i) > REACH) {
-            return None;
+        if (0..3).any(|i| reaches(i) > REACH - OFF) {
+            return Err(Failure::Bends);
         }
         let mut k = [0.0; 4];
         for i in 0..3 {
@@ -226,7 +265,7 @@ impl Frame<'_> {
                 + (norm(columns[q + 1]) + grown[1]) * k[q + 1]
         };
         // Both surfaces hold the arc: the better bound is as true.
-        Some(Node { x, y, slope, bend, curve: CARE * curve(0).min(curve(1)) })
+        Ok(Node { x, y, slope, bend, curve: CARE * curve(0).min(curve(1)) })
     }
 }
 
@@ -262,7 +301,8 @@ impl Arc {
     /// The solution at `x`, in the unit parameters of the patches: Newton with `k` held.
     pub fn solve(&self, a: &Pieces, b: &Pieces, x: f64) -> [f64; 4] {
         let guess = self.near(x);
-        let y = newton([a, b], self.patches, self.place(), self.k, x, guess).map_or(guess, |y| y.0);
+        let y = newton([a, b], self.patches, self.place(), self.k, x, guess, SOLUTION)
+            .map_or(guess, |y| y.0);
         unit(self.place(), self.k, x, y)
     }
 
@@ -348,7 +388,7 @@ impl Arc {
             let (y, slope) = (sign * node.y[i] - edge, sign * node.slope[i]);
             let turn = node.bend[i] * self.step;
             let reach = CARE * (slope.abs() + 0.5 * turn) * self.step;
-            (least, greatest) = (least.min(y - reach), greatest.max(y + reach));
+            (least, greatest) = (least.min(y - reach - OFF), greatest.max(y + reach + OFF));
             (rises, falls) = (rises && slope > turn, falls && slope < -turn);
             along = along && y <= room && y >= -4.0 * room;
         }

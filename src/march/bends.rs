@@ -26,8 +26,20 @@ pub struct Bends {
 /// The bends of a net on the unit square, given around its middle, where the weight is one; the net is changed. `radius`: its size,
 /// which rounding goes by. `None` where a weight is not clearly positive.
 pub fn bends(net: &mut [Pole], degree: [usize; 2], rational: bool, radius: f64) -> Option<Bends> {
+    // The usual degrees are literals, so that loops have fixed lengths.
+    match degree {
+        [3, 3] => bends_of(net, [3, 3], rational, radius),
+        [2, 2] => bends_of(net, [2, 2], rational, radius),
+        [1, 1] => bends_of(net, [1, 1], rational, radius),
+        _ => bends_of(net, degree, rational, radius),
+    }
+}
+
+#[inline(always)]
+fn bends_of(net: &mut [Pole], degree: [usize; 2], rational: bool, radius: f64) -> Option<Bends> {
     stretch(net, degree);
-    let second = [0, 1, 2].map(|n| differences(net, degree, n));
+    let second =
+        [differences(net, degree, 0), differences(net, degree, 1), differences(net, degree, 2)];
     let boxes = if rational { quotient(net, degree, second)? } else { second.map(ranges) };
     let growth = 2.1f64.powi((degree[0] + degree[1]) as i32) * 48.0 * HALF_ULP * radius;
     let middle = boxes.map(|range| range.map(|[low, high]| 0.5 * (low + high)));
@@ -43,15 +55,23 @@ fn ranges([x, y, z, _]: Box4) -> [[f64; 2]; 3] {
     [x, y, z]
 }
 
+#[inline(always)]
 fn include(all: &mut Box4, p: Pole) {
     for k in 0..4 {
-        all[k] = [all[k][0].min(p[k]), all[k][1].max(p[k])];
+        // Not `min` and `max`: what is not a number may be lost here, sizes are looked at in the end.
+        if p[k] < all[k][0] {
+            all[k][0] = p[k];
+        }
+        if p[k] > all[k][1] {
+            all[k][1] = p[k];
+        }
     }
 }
 
 const NOTHING: Box4 = [[f64::INFINITY, f64::NEG_INFINITY]; 4];
 
 /// Box of the derivatives along uu, uv, vv (n = 0, 1, 2) of a net over the reach, by half widths of the part.
+#[inline(always)]
 fn differences(net: &[Pole], [p, q]: [usize; 2], n: usize) -> Box4 {
     let width = q + 1;
     let per = |n: usize| n as f64 / (2.0 * REACH);
@@ -70,18 +90,19 @@ fn differences(net: &[Pole], [p, q]: [usize; 2], n: usize) -> Box4 {
             let step = if n == 0 { width } else { 1 };
             let d = if n == 1 {
                 let (a, b, c, d) = (net[at], net[at + 1], net[at + width], net[at + width + 1]);
-                [0, 1, 2, 3].map(|k| factor * ((d[k] - c[k]) - (b[k] - a[k])))
+                difference(difference(d, c), difference(b, a))
             } else {
                 let (a, b, c) = (net[at], net[at + step], net[at + 2 * step]);
-                [0, 1, 2, 3].map(|k| factor * ((c[k] - b[k]) - (b[k] - a[k])))
+                difference(difference(c, b), difference(b, a))
             };
             include(&mut all, d);
         }
     }
-    all
+    times_all(all, factor)
 }
 
 /// Box of the first derivative along a direction.
+#[inline(always)]
 fn first_differences(net: &[Pole], degree: [usize; 2], direction: usize) -> Box4 {
     let width = degree[1] + 1;
     let step = if direction == 0 { width } else { 1 };
@@ -89,9 +110,20 @@ fn first_differences(net: &[Pole], degree: [usize; 2], direction: usize) -> Box4
     let mut all = NOTHING;
     for at in 0..net.len() - step {
         if direction == 0 || at % width + 1 < width {
-            include(&mut all, [0, 1, 2, 3].map(|k| factor * (net[at + step][k] - net[at][k])));
+            include(&mut all, difference(net[at + step], net[at]));
         }
     }
+    times_all(all, factor)
+}
+
+#[inline(always)]
+fn difference(a: Pole, b: Pole) -> Pole {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]]
+}
+
+/// By a factor that is not negative.
+fn times_all(mut all: Box4, factor: f64) -> Box4 {
+    all.iter_mut().flatten().for_each(|x| *x *= factor);
     all
 }
 
@@ -116,6 +148,7 @@ fn over(a: Range, w: Range) -> Range {
 
 /// Second derivatives of numerator over weight: `A_uv = (P_uv - A_u w_v - A_v w_u - A w_uv) / w`. `None` where the weight is not
 /// clearly positive.
+#[inline(always)]
 fn quotient(net: &[Pole], degree: [usize; 2], second: [Box4; 3]) -> Option<[[Range; 3]; 3]> {
     let mut points = NOTHING;
     for q in net {
@@ -138,6 +171,7 @@ fn quotient(net: &[Pole], degree: [usize; 2], second: [Box4; 3]) -> Option<[[Ran
 }
 
 /// Replaces a net on [0, 1]^2 by that on the reach.
+#[inline(always)]
 fn stretch(net: &mut [Pole], degree: [usize; 2]) {
     let width = degree[1] + 1;
     let (end, start) = (1.0 + BEYOND, -BEYOND / (1.0 + BEYOND));

@@ -94,7 +94,12 @@ pub fn foot(surface: &dyn Shape, mut at: [f64; 2], point: Vector) -> [f64; 2] {
 }
 
 /// The gap at a place and how the surfaces bend apart; `None` where a surface has no tangent plane.
-pub fn look(a: &dyn Shape, b: &dyn Shape, uv: [f64; 2], near: [f64; 2]) -> Option<(Touch, [f64; 2])> {
+pub fn look(
+    a: &dyn Shape,
+    b: &dyn Shape,
+    uv: [f64; 2],
+    near: [f64; 2],
+) -> Option<(Touch, [f64; 2])> {
     let p = second(a, uv);
     let st = foot(b, near, p[0]);
     let q = second(b, st);

@@ -147,11 +147,7 @@ impl Cutter<'_> {
         let at =
             correct(a, b, middle, Corrector::NewtonThree(k), self.point, None).map(|f| f.at)?;
         let (x, y) = (a.evaluate(at[0], at[1]), b.evaluate(at[2], at[3]));
-        Some(MarchPoint {
-            point: scaled(add(x, y), 0.5),
-            uv: [at[0], at[1]],
-            st: [at[2], at[3]],
-        })
+        Some(MarchPoint { point: scaled(add(x, y), 0.5), uv: [at[0], at[1]], st: [at[2], at[3]] })
     }
 
     fn label(&mut self, from: MarchPoint, to: MarchPoint, bulge: [f64; 4], k: usize, jump: bool) {
@@ -250,7 +246,8 @@ impl Cutter<'_> {
             return;
         }
         // A loop is begun where it is outside.
-        let first = if branch.is_closed() { pieces.iter().position(is_out).unwrap_or(0) } else { 0 };
+        let first =
+            if branch.is_closed() { pieces.iter().position(is_out).unwrap_or(0) } else { 0 };
         let order: Vec<&Piece> = (0..n).map(|i| &pieces[(first + i) % n]).collect();
         let mut at = 0;
         while at < n {

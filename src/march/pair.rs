@@ -22,7 +22,7 @@ use super::system::{inverse, others, tangent};
 use crate::bounds::{HALF_ULP, Vector, dot, norm, scaled, sub};
 
 /// How far beyond the part an arc is followed, in half widths.
-const OVERLAP: f64 = 1.25;
+const OVERLAP: f64 = 1.05;
 
 /// Most change of the matrix for which an arc is tried.
 const MOST_CHANGE: f64 = 0.9;

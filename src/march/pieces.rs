@@ -24,6 +24,8 @@ pub struct Patch {
     /// Homogeneous poles around `center`.
     poles: Box<[Pole]>,
     center: Vector,
+    /// Its first corner and its slopes, when it is an affine map up to rounding.
+    affine: Option<[Vector; 3]>,
     /// Its whole as a part.
     pub root: u32,
     /// Which of its sides u low, u high, v low, v high are one point.
@@ -123,6 +125,7 @@ impl Pieces {
                 pieces.patches.push(Patch {
                     u: *u,
                     v: *v,
+                    affine: affine(&poles, degree, pieces.rational, 0.25 * pieces.error),
                     poles: poles.clone(),
                     center,
                     root,
@@ -219,6 +222,10 @@ impl Pieces {
     /// Point and slopes of a patch at unit parameters, a little outside too.
     pub fn jet(&self, patch: u32, at: [f64; 2]) -> [Vector; 3] {
         let patch = &self.patches[patch as usize];
+        if let Some([o, du, dv]) = patch.affine {
+            let x = add(scaled(du, at[0]), scaled(dv, at[1]));
+            return [add(patch.center, add(o, x)), du, dv];
+        }
         let [p, pu, pv] = homogeneous(&patch.poles, self.degree, at);
         let x = [0, 1, 2].map(|k| p[k] / p[3]);
         let slope = |d: Pole| [0, 1, 2].map(|k| (d[k] - x[k] * d[3]) / p[3]);
@@ -257,7 +264,9 @@ impl Pieces {
         };
         let mut found = Vec::new();
         let beside = |k: usize| {
-            (k..k + self.columns).filter(|&k| near(self.patches[k].v, at[1], room[1])).map(|k| k as u32)
+            (k..k + self.columns)
+                .filter(|&k| near(self.patches[k].v, at[1], room[1]))
+                .map(|k| k as u32)
         };
         for row in (0..self.patches.len()).step_by(self.columns) {
             if near(self.patches[row].u, at[0], room[0]) {
@@ -380,13 +389,51 @@ fn local_poles(
     (poles.into(), center)
 }
 
-/// Homogeneous point and derivatives by the unit parameters.
+/// First corner and slopes of a net that is an affine map but for `error`.
+fn affine(poles: &[Pole], [p, q]: [usize; 2], rational: bool, error: f64) -> Option<[Vector; 3]> {
+    let of = |k: usize| [poles[k][0], poles[k][1], poles[k][2]];
+    let (o, u, v) = (of(0), of(p * (q + 1)), of(q));
+    let (du, dv) = (sub(u, o), sub(v, o));
+    let fits = |k: usize| {
+        let (i, j) = ((k / (q + 1)) as f64 / p as f64, (k % (q + 1)) as f64 / q as f64);
+        let off = sub(of(k), add(o, add(scaled(du, i), scaled(dv, j))));
+        off.iter().all(|x| x.abs() <= error)
+    };
+    (!rational && (0..poles.len()).all(fits)).then_some([o, du, dv])
+}
+
+/// Homogeneous point and derivatives by the unit parameters. The usual degrees are literals, so that loops have fixed lengths.
 fn homogeneous(poles: &[Pole], degree: [usize; 2], at: [f64; 2]) -> [Pole; 3] {
-    if degree[0].max(degree[1]) < 4 {
-        summed::<4>(poles, degree, at)
-    } else {
-        summed::<32>(poles, degree, at)
+    match degree {
+        [3, 3] => fixed::<4, 4>(poles, at),
+        [2, 2] => fixed::<3, 3>(poles, at),
+        [2, 1] => fixed::<3, 2>(poles, at),
+        [1, 1] => fixed::<2, 2>(poles, at),
+        [0..=3, 0..=3] => summed::<4>(poles, degree, at),
+        _ => summed::<32>(poles, degree, at),
     }
+}
+
+/// The same for N x M poles.
+fn fixed<const N: usize, const M: usize>(poles: &[Pole], at: [f64; 2]) -> [Pole; 3] {
+    let ([b, db], [c, dc]) = (bernstein_of::<N>(at[0]), bernstein_of::<M>(at[1]));
+    let mut sum = [[0.0; 4]; 3];
+    let (rows, _) = poles.as_chunks::<M>();
+    for (row, (b, db)) in rows.iter().zip(b.into_iter().zip(db)) {
+        let (mut x, mut dx) = ([0.0; 4], [0.0; 4]);
+        for j in 0..M {
+            for k in 0..4 {
+                x[k] += c[j] * row[j][k];
+                dx[k] += dc[j] * row[j][k];
+            }
+        }
+        for k in 0..4 {
+            sum[0][k] += b * x[k];
+            sum[1][k] += db * x[k];
+            sum[2][k] += b * dx[k];
+        }
+    }
+    sum
 }
 
 fn summed<const LEN: usize>(poles: &[Pole], degree: [usize; 2], at: [f64; 2]) -> [Pole; 3] {
@@ -410,7 +457,21 @@ fn summed<const LEN: usize>(poles: &[Pole], degree: [usize; 2], at: [f64; 2]) ->
     sum
 }
 
+/// Bernstein basis of degree N - 1 and its derivative.
+#[inline(always)]
+fn bernstein_of<const N: usize>(s: f64) -> [[f64; N]; 2] {
+    if N != 4 {
+        return bernstein::<N>(N - 1, s);
+    }
+    let (mut values, mut slopes, r) = ([0.0; N], [0.0; N], 1.0 - s);
+    let (rr, rs, ss) = (r * r, r * s, s * s);
+    values.copy_from_slice(&[r * rr, 3.0 * s * rr, 3.0 * r * ss, s * ss]);
+    slopes.copy_from_slice(&[-3.0 * rr, 3.0 * rr - 6.0 * rs, 6.0 * rs - 3.0 * ss, 3.0 * ss]);
+    [values, slopes]
+}
+
 /// Bernstein basis of degree `n` and its derivative.
+#[inline(always)]
 fn bernstein<const LEN: usize>(n: usize, s: f64) -> [[f64; LEN]; 2] {
     let (mut values, mut slopes) = ([0.0; LEN], [0.0; LEN]);
     values[0] = 1.0;
@@ -433,6 +494,15 @@ fn bernstein<const LEN: usize>(n: usize, s: f64) -> [[f64; LEN]; 2] {
 
 /// Splits a net at the middle of a direction.
 fn halve(low: &mut [Pole], high: &mut [Pole], degree: [usize; 2], direction: usize) {
+    match (degree, direction) {
+        ([3, 3], 0) => halve_along(low, high, [3, 3], 0),
+        ([3, 3], _) => halve_along(low, high, [3, 3], 1),
+        _ => halve_along(low, high, degree, direction),
+    }
+}
+
+#[inline(always)]
+fn halve_along(low: &mut [Pole], high: &mut [Pole], degree: [usize; 2], direction: usize) {
     let width = degree[1] + 1;
     let (n, step, lines) =
         if direction == 0 { (degree[0], width, width) } else { (degree[1], 1, degree[0] + 1) };

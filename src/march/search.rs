@@ -10,8 +10,8 @@
 //! Level by level, so that a budget that runs out leaves boxes of equal size. Cost: linear in the length of the curves; a touching
 //! point takes a constant number of pairs a level.
 
-use super::contact::{into_domain, look, settle};
 use super::arc::{Arc, Clip};
+use super::contact::{into_domain, look, settle};
 use super::pair::{Verdict, judge};
 use super::pieces::{Part, Pieces};
 use crate::bounds::{Aabb, HALF_ULP, Vector, cross, dot, norm, sub};

@@ -207,8 +207,7 @@ impl Plane<'_> {
                 };
                 let node = self.ways[at].to;
                 let ways = (0..self.ways.len()).filter(|&k| self.ways[k].from == node);
-                let Some(next) = ways.min_by(|&i, &j| clockwise(i).total_cmp(&clockwise(j)))
-                else {
+                let Some(next) = ways.min_by(|&i, &j| clockwise(i).total_cmp(&clockwise(j))) else {
                     return refused("face: a loop is not closed".into());
                 };
                 at = next;
@@ -228,8 +227,7 @@ impl Plane<'_> {
             let pcurve = &self.ways[k].pcurve;
             let count = SAMPLES * pcurve.breaks().len().max(1);
             points.extend(
-                (0..count)
-                    .map(|i| pcurve.evaluate(pcurve.parameter_at(i as f64 / count as f64))),
+                (0..count).map(|i| pcurve.evaluate(pcurve.parameter_at(i as f64 / count as f64))),
             );
         }
         let next = |i: usize| points[(i + 1) % points.len()];
@@ -300,13 +298,8 @@ pub fn split(
         return refused(format!("tolerance: {tolerance} is not a positive length"));
     }
     let [u0, u1, v0, v1] = face.support().domain();
-    let mut plane = Plane {
-        face,
-        scale: [u1 - u0, v1 - v0],
-        tolerance,
-        nodes: Vec::new(),
-        ways: Vec::new(),
-    };
+    let mut plane =
+        Plane { face, scale: [u1 - u0, v1 - v0], tolerance, nodes: Vec::new(), ways: Vec::new() };
     plane.loops(cuts)?;
     plane.cuts(cuts)?;
     let chains = plane.chains()?;
