@@ -2489,13 +2489,25 @@ typedef struct fpt_intersection_branch {
      */
     double gap;
     /**
+     * Proven: between two points the branch stays within this of their chord. Infinite where nothing is proven.
+     */
+    double chord;
+    /**
      * 1: the surfaces touch along it.
      */
     uint32_t is_tangential;
     /**
+     * 1: it bounds an area in which the surfaces coincide; then it is tangential too.
+     */
+    uint32_t bounds_overlap;
+    /**
      * 1: it is a loop; its first point comes again as the last.
      */
     uint32_t is_closed;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
     /**
      * Values of fpt_branch_end, of its beginning and its end.
      */
@@ -6976,8 +6988,8 @@ fpt_status fpt_surface_intersection_undecided(const struct fpt_surface_intersect
  * @param part        which part between two seams; beyond the count of parts FPT_INVALID_ARGUMENT
  * @param out_count   the number of parts
  * @param out_curves  3 handles: in space, in A's domain, in B's domain; release each with fpt_curve_free
- * @param out_error   greatest distance that was measured, 16 places a span: of the curve from either surface (certified), and from
- *                    the surface points at its parameters
+ * @param out_error   proven: at equal parameters the curve is nowhere farther from the surface points at its parameters, and so from
+ *                    both surfaces
  * @since 0.1
  */
 FPT_MUST_USE
@@ -6990,6 +7002,25 @@ fpt_status fpt_surface_intersection_curves(const struct fpt_surface_intersection
                                            size_t *out_count,
                                            struct fpt_curve **out_curves,
                                            double *out_error);
+
+/**
+ * The faces into which the branches cut one of the two faces that they came from. Cuts are polylines in its domain and in space, as near as the
+ * chord tolerance made them. Branches that end inside the face, and tangential ones, cut nothing.
+ *
+ * @param trim       the first (which = 0) or the second (which = 1) face of the intersection
+ * @param tolerance  length, > 0: within it ends of branches meet loops and one another
+ * @param capacity   room in out_trims, at least the number of faces, else FPT_INVALID_ARGUMENT with *out_count set
+ * @param out_trims  handles; release each with fpt_trim_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_intersection_split(const struct fpt_surface_intersection *intersection,
+                                          const struct fpt_trim *trim,
+                                          uint32_t which,
+                                          double tolerance,
+                                          size_t capacity,
+                                          struct fpt_trim **out_trims,
+                                          size_t *out_count);
 
 /**
  * Releases an intersection. NULL is fine. No other call may use the handle during or after this one.

@@ -9,7 +9,7 @@ use footpoint::elementary::{Axes, Elementary, ElementarySurface};
 use footpoint::index::IndexedSurface;
 use footpoint::march::curves::curves;
 use footpoint::march::faces::intersect_faces;
-use footpoint::march::split::{Cut, split};
+use footpoint::march::split::{Cut, cuts_of, split};
 use footpoint::march::{End, Intersection, MarchOptions};
 use footpoint::pcurve::Pcurve;
 use footpoint::surface::Surface;
@@ -176,7 +176,7 @@ fn faces_are_split_by_what_they_have_in_common() {
     let (a, b) = (IndexedSurface::new(ball.clone()), IndexedSurface::new(sheet.clone()));
     let (fa, fb) = (whole(ball), whole(sheet));
     let found = meet(&fa, &fb);
-    let parts = split(&fb, &cuts(&a, &b, &found, true), 1e-6).unwrap();
+    let parts = split(&fb, &cuts(&a, &b, &found, true), 1e-6).unwrap().faces;
     assert_eq!(parts.len(), 2);
     let mut areas: Vec<f64> = parts.iter().map(area).collect();
     areas.sort_by(f64::total_cmp);
@@ -185,7 +185,7 @@ fn faces_are_split_by_what_they_have_in_common() {
     for part in &parts {
         assert!(part.report(1e-6).unwrap().is_valid());
     }
-    let parts = split(&fa, &cuts(&a, &b, &found, false), 1e-6).unwrap();
+    let parts = split(&fa, &cuts(&a, &b, &found, false), 1e-6).unwrap().faces;
     assert_eq!(parts.len(), 2);
     for part in &parts {
         assert!(part.report(1e-6).unwrap().is_valid(), "{:?}", part.report(1e-6).unwrap());
@@ -199,11 +199,23 @@ fn faces_are_split_by_what_they_have_in_common() {
     let (fa, fb) = (whole(tube), whole(upright));
     let found = meet(&fa, &fb);
     assert_eq!(found.branches.len(), 2);
-    let parts = split(&fa, &cuts(&a, &b, &found, false), 1e-6).unwrap();
+    let parts = split(&fa, &cuts(&a, &b, &found, false), 1e-6).unwrap().faces;
     assert_eq!(parts.len(), 3);
     assert!((parts.iter().map(area).sum::<f64>() - 1.0).abs() < 1e-9);
     assert!(split(&fa, &[], 0.0).is_err());
     let inside = Pcurve::polyline(&[[0.4, 0.4], [0.6, 0.6]]).unwrap();
-    let refused = split(&fa, &[Cut { pcurve: inside, edge: None }], 1e-6).unwrap_err();
-    assert!(refused.to_string().contains("ends inside"), "{refused}");
+    let unused = split(&fa, &[Cut { pcurve: inside, edge: None }], 1e-6).unwrap();
+    assert_eq!((unused.faces.len(), unused.unused), (1, vec![0]));
+    // The polylines of the branches do as well, also in the angles of an elementary support.
+    let axes = Axes::around([0.0; 3], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]).unwrap();
+    let tube =
+        ElementarySurface::new(Elementary::Cylinder { axes, radius: 1.0 }, [0.0, TAU, -2.0, 2.0]);
+    let tube = TrimmedSurface::whole(tube.unwrap().into()).unwrap();
+    let found = meet(&tube, &fb);
+    let split = split(&tube, &cuts_of(&found, false).unwrap(), 1e-6).unwrap();
+    assert_eq!((split.faces.len(), split.unused.len()), (3, 0));
+    assert!((split.faces.iter().map(area).sum::<f64>() - 4.0 * TAU).abs() < 1e-9);
+    for part in &split.faces {
+        assert!(part.report(1e-6).unwrap().is_valid());
+    }
 }

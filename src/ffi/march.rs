@@ -15,6 +15,7 @@ use crate::curve::Curve;
 use crate::index::IndexedCurve;
 use crate::march::curves::curves;
 use crate::march::faces::intersect_faces;
+use crate::march::split::{cuts_of, split};
 use crate::march::{ContactKind, End, Intersection, MarchOptions, MarchPoint, Region, intersect};
 use std::ffi::{c_int, c_void};
 use std::mem::{offset_of, size_of};
@@ -133,10 +134,16 @@ pub struct fpt_intersection_branch {
     pub point_count: usize,
     /// Greatest distance between the two surface points of one of its points.
     pub gap: f64,
+    /// Proven: between two points the branch stays within this of their chord. Infinite where nothing is proven.
+    pub chord: f64,
     /// 1: the surfaces touch along it.
     pub is_tangential: u32,
+    /// 1: it bounds an area in which the surfaces coincide; then it is tangential too.
+    pub bounds_overlap: u32,
     /// 1: it is a loop; its first point comes again as the last.
     pub is_closed: u32,
+    /// 0.
+    pub reserved: u32,
     /// Values of fpt_branch_end, of its beginning and its end.
     pub end_kind: [u32; 2],
     /// What they refer to.
@@ -342,8 +349,11 @@ pub unsafe extern "C" fn fpt_surface_intersection_branch(
         *place("out", out)? = fpt_intersection_branch {
             point_count: branch.points.len(),
             gap: branch.gap,
+            chord: branch.chord,
             is_tangential: u32::from(branch.is_tangential),
+            bounds_overlap: u32::from(branch.bounds_overlap),
             is_closed: u32::from(branch.is_closed()),
+            reserved: 0,
             end_kind: [first as u32, last as u32],
             end_index: [i, j],
         };
@@ -455,8 +465,8 @@ pub unsafe extern "C" fn fpt_surface_intersection_undecided(
 /// @param part        which part between two seams; beyond the count of parts FPT_INVALID_ARGUMENT
 /// @param out_count   the number of parts
 /// @param out_curves  3 handles: in space, in A's domain, in B's domain; release each with fpt_curve_free
-/// @param out_error   greatest distance that was measured, 16 places a span: of the curve from either surface (certified), and from
-///                    the surface points at its parameters
+/// @param out_error   proven: at equal parameters the curve is nowhere farther from the surface points at its parameters, and so from
+///                    both surfaces
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
@@ -486,6 +496,47 @@ pub unsafe extern "C" fn fpt_surface_intersection_curves(
         let made = parts.swap_remove(part);
         *error = made.error;
         out.copy_from_slice(&[handed(made.space), handed(made.uv), handed(made.st)]);
+        Ok(())
+    })
+}
+
+/// The faces into which the branches cut one of the two faces that they came from. Cuts are polylines in its domain and in space, as near as the
+/// chord tolerance made them. Branches that end inside the face, and tangential ones, cut nothing.
+///
+/// @param trim       the first (which = 0) or the second (which = 1) face of the intersection
+/// @param tolerance  length, > 0: within it ends of branches meet loops and one another
+/// @param capacity   room in out_trims, at least the number of faces, else FPT_INVALID_ARGUMENT with *out_count set
+/// @param out_trims  handles; release each with fpt_trim_free
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_surface_intersection_split(
+    intersection: *const fpt_surface_intersection,
+    trim: *const fpt_trim,
+    which: u32,
+    tolerance: f64,
+    capacity: usize,
+    out_trims: *mut *mut fpt_trim,
+    out_count: *mut usize,
+) -> fpt_status {
+    // SAFETY: the header asks for live handles and room for the outputs.
+    guard(|| unsafe {
+        let found = &shared("intersection", intersection)?.found;
+        let face = trim::face("trim", trim)?;
+        if which > 1 {
+            return Err(Failure::invalid(format!("which: {which} is not 0 or 1")));
+        }
+        let count = place("out_count", out_count)?;
+        let faces = split(face, &cuts_of(found, which == 1)?, tolerance)?.faces;
+        *count = faces.len();
+        if capacity < faces.len() {
+            let text = format!("capacity: {capacity} given, {} faces", faces.len());
+            return Err(Failure::invalid(text));
+        }
+        let out = output("out_trims", out_trims, faces.len())?;
+        for (out, face) in out.iter_mut().zip(faces) {
+            *out = fpt_trim::handle(face);
+        }
         Ok(())
     })
 }

@@ -97,6 +97,7 @@ fn branch(a: &dyn Shape, b: &dyn Shape, walk: &Walk) -> Branch {
         points,
         ends,
         is_tangential: false,
+        bounds_overlap: false,
         gap,
         chord: f64::INFINITY,
         bulge: [f64::INFINITY; 4],

@@ -6,9 +6,10 @@
 //!   -> closed chains: counter-clockwise an outer loop, clockwise a hole of the smallest one around it
 //! ```
 //!
-//! A curve must be closed, or end on loops and on other curves. Coedges that are not cut keep their edges; cut ones are known as the
+//! A curve that is not closed, and does not end on loops and other curves, cuts nothing: it is named, and left out. Coedges that are not cut keep their edges; cut ones are known as the
 //! images of their pcurves; a new curve is one edge for the two coedges along it.
 
+use super::{Intersection, MarchPoint};
 use crate::bounds::{norm, sub};
 use crate::curve::Curve;
 use crate::error::Error;
@@ -159,8 +160,7 @@ impl Plane<'_> {
         self.same(pcurve.start(), pcurve.end())
     }
 
-    fn cuts(&mut self, cuts: &[Cut]) -> Result<(), Error> {
-        let on_loops = self.nodes.len();
+    fn cuts(&mut self, cuts: &[Cut]) {
         for (number, cut) in cuts.iter().enumerate() {
             let (from, to) = (self.node(cut.pcurve.start()), self.node(cut.pcurve.end()));
             let back = cut.pcurve.reversed();
@@ -168,17 +168,37 @@ impl Plane<'_> {
             self.ways.push(Way { pcurve: cut.pcurve.clone(), source: source(false), from, to });
             self.ways.push(Way { pcurve: back, source: source(true), from: to, to: from });
         }
-        for way in &self.ways {
-            if let Source::Cut { number, .. } = way.source {
-                let uses = self.ways.iter().filter(|w| w.from == way.from).count();
-                if way.from >= on_loops && uses < 2 {
-                    return refused(format!(
-                        "cuts: cut {number} ends inside the face, on no loop and no other cut"
-                    ));
-                }
+    }
+
+    /// Numbers of the cuts that are closed, or end on loops and on one another.
+    fn useful(&self, cuts: &[Cut]) -> Vec<usize> {
+        let on_loop = |at: [f64; 2]| {
+            self.face.coedges().any(|(_, _, coedge)| {
+                let t = self.nearest(&coedge.pcurve, at);
+                self.same(coedge.pcurve.evaluate(t), at)
+            })
+        };
+        let ends: Vec<[[f64; 2]; 2]> =
+            cuts.iter().map(|cut| [cut.pcurve.start(), cut.pcurve.end()]).collect();
+        let held: Vec<[bool; 2]> = ends.iter().map(|ends| ends.map(on_loop)).collect();
+        let mut useful: Vec<usize> = (0..cuts.len()).collect();
+        loop {
+            let before = useful.len();
+            let among = useful.clone();
+            useful.retain(|&k| {
+                let meets = |end: usize| {
+                    held[k][end]
+                        || among.iter().any(|&j| {
+                            (0..2)
+                                .any(|e| (j, e) != (k, end) && self.same(ends[j][e], ends[k][end]))
+                        })
+                };
+                meets(0) && meets(1)
+            });
+            if useful.len() == before {
+                return useful;
             }
         }
-        Ok(())
     }
 
     /// Closed chains of ways.
@@ -284,24 +304,79 @@ impl Plane<'_> {
     }
 }
 
+/// A face in parts.
+pub struct Split {
+    /// The parts.
+    pub faces: Vec<TrimmedSurface>,
+    /// Numbers of the cuts that end inside the face and cut nothing.
+    pub unused: Vec<usize>,
+}
+
+/// The branches of an intersection as cuts of one of its faces (`second`: of B): polylines in the domain and in space, as near as the chord
+/// tolerance made them. Branches over a seam are cut there; touching ones are left out.
+///
+/// # Errors
+/// None in practice.
+pub fn cuts_of(found: &Intersection, second: bool) -> Result<Vec<Cut>, Error> {
+    let mut cuts = Vec::new();
+    for branch in found.branches.iter().filter(|branch| !branch.is_tangential) {
+        let mut run: Vec<MarchPoint> = Vec::new();
+        for (i, point) in branch.points.iter().enumerate() {
+            let seam = i > 0 && branch.points[i - 1].point == point.point;
+            if seam || branch.passes_seam(i) {
+                cuts.extend(polylines(&run, second)?);
+                run.clear();
+            }
+            run.push(*point);
+        }
+        cuts.extend(polylines(&run, second)?);
+    }
+    Ok(cuts)
+}
+
+/// A run of points as a cut; `None` when it has no length.
+fn polylines(run: &[MarchPoint], second: bool) -> Result<Option<Cut>, Error> {
+    let at = |p: &MarchPoint| if second { p.st } else { p.uv };
+    let (mut parameters, mut places, mut points) = (Vec::new(), Vec::new(), Vec::new());
+    for p in run {
+        let last = points.last().map_or(f64::INFINITY, |&x| norm(sub(p.point, x)));
+        if last > 0.0 && places.last() != Some(&at(p)) {
+            parameters.push(if last.is_finite() {
+                parameters[parameters.len() - 1] + last
+            } else {
+                0.0
+            });
+            places.push(at(p));
+            points.push(p.point);
+        }
+    }
+    if points.len() < 2 {
+        return Ok(None);
+    }
+    let mut knots = vec![parameters[0]];
+    knots.extend(&parameters);
+    knots.push(parameters[parameters.len() - 1]);
+    let edge = Some(Curve::new(&knots, 1, &points, None)?);
+    Ok(Some(Cut { pcurve: Pcurve::polyline_at(&parameters, &places)?, edge }))
+}
+
 /// The faces into which curves cut a face. `tolerance`: a length within which ends of curves meet loops and one another. Curves that
 /// cross one another must be cut there first.
 ///
 /// # Errors
-/// A tolerance that is no positive length; a cut that ends inside the face; cuts that touch; loops that are not closed.
-pub fn split(
-    face: &TrimmedSurface,
-    cuts: &[Cut],
-    tolerance: f64,
-) -> Result<Vec<TrimmedSurface>, Error> {
+/// A tolerance that is no positive length; cuts that touch; loops that are not closed.
+pub fn split(face: &TrimmedSurface, cuts: &[Cut], tolerance: f64) -> Result<Split, Error> {
     if !tolerance.is_finite() || tolerance <= 0.0 {
         return refused(format!("tolerance: {tolerance} is not a positive length"));
     }
     let [u0, u1, v0, v1] = face.support().domain();
     let mut plane =
         Plane { face, scale: [u1 - u0, v1 - v0], tolerance, nodes: Vec::new(), ways: Vec::new() };
-    plane.loops(cuts)?;
-    plane.cuts(cuts)?;
+    let useful = plane.useful(cuts);
+    let unused = (0..cuts.len()).filter(|k| !useful.contains(k)).collect();
+    let cuts: Vec<Cut> = useful.iter().map(|&k| cuts[k].clone()).collect();
+    plane.loops(&cuts)?;
+    plane.cuts(&cuts);
     let chains = plane.chains()?;
     let areas: Vec<f64> = chains.iter().map(|chain| plane.area(chain)).collect();
     let outer: Vec<usize> = (0..chains.len()).filter(|&k| areas[k] > 0.0).collect();
@@ -322,5 +397,7 @@ pub fn split(
             None => return refused("cuts: a hole lies in no part of the face".into()),
         }
     }
-    parts.iter().map(|chains| plane.made(chains, cuts)).collect()
+    let faces: Result<Vec<TrimmedSurface>, Error> =
+        parts.iter().map(|chains| plane.made(chains, &cuts)).collect();
+    Ok(Split { faces: faces?, unused })
 }
