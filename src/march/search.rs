@@ -24,6 +24,9 @@ const LEVEL_OF_CURVES: u32 = 12;
 /// Halvings of a pair after which coincidence is looked for.
 const LEVEL_OF_AREAS: u32 = 8;
 
+/// A relative curvature beyond this share of the greatest one is none by rounding, nor by what changes within a small part.
+const BENDS_APART: f64 = 0.02;
+
 /// Pairs between two looks at whether to stop.
 const GROUP: u64 = 256;
 
@@ -268,6 +271,13 @@ impl<'a> Search<'a> {
 
     /// Whether the surfaces touch in this pair along a curve, or coincide, to the last digits.
     fn touching(&self, a: &Part, b: &Part, level: u32) -> Option<Open> {
+        let [u, v, s, t] = self.middle(a, b);
+        // Where they bend apart both ways they touch in a point at most.
+        if let Some((here, _)) = look(self.surfaces[0], self.surfaces[1], [u, v], [s, t])
+            && here.curvature[1].abs() > BENDS_APART * here.greatest
+        {
+            return None;
+        }
         if self.coincide(a, b) {
             return Some(Open::Area);
         }
