@@ -53,6 +53,8 @@ pub mod curves;
 
 mod functions;
 
+mod border;
+
 pub mod faces;
 
 pub mod split;

@@ -9,6 +9,7 @@
 //!
 //! A face holds its border. What runs along a trim, or touches one, cannot be told in doubles: it is kept and listed as undecided.
 
+use super::border::Border;
 use super::correct::{Corrector, correct};
 use super::functions::walked;
 use super::shape::Shape;
@@ -26,7 +27,7 @@ use crate::trim::{Support, TrimmedSurface};
 const MOST_PIECES: usize = 20_000;
 
 /// Share of the smaller surface's size at which a piece counts as a point.
-const POINT: f64 = 1e-13;
+const POINT: f64 = 4e-13;
 
 /// One of the two faces.
 struct Half<'a> {
@@ -35,8 +36,8 @@ struct Half<'a> {
     form: Option<&'a IndexedSurface>,
     /// From the parameters of the form to those of the support.
     map: Option<Transform>,
-    /// What the loops enclose, in the parameters of the support; `None`: the whole domain.
-    region: Option<Region>,
+    /// What the loops enclose, in the parameters of the support, and they themselves; `None`: the whole domain.
+    region: Option<(Region, Border)>,
 }
 
 /// Whether a face is all of its support: one loop along the sides of the domain.
@@ -71,13 +72,15 @@ impl<'a> Half<'a> {
         let region = if is_whole(face) {
             None
         } else {
-            let mut chains = Vec::new();
+            let (mut chains, mut border) = (Vec::new(), Border::default());
             for chain in face.loops() {
                 let curves: Result<Vec<_>, _> =
                     chain.coedges.iter().map(|coedge| coedge.pcurve.as_spline()).collect();
-                chains.push(curves?);
+                let curves = curves?;
+                border.push(&curves);
+                chains.push(curves);
             }
-            Some(Region::new(chains.iter().map(|chain| chain.iter()))?)
+            Some((Region::new(chains.iter().map(|chain| chain.iter()))?, border))
         };
         Ok(Self { shape, form, map, region })
     }
@@ -100,11 +103,11 @@ impl<'a> Half<'a> {
     }
 
     fn side(&self, at: [f64; 2], memory: &mut Halving) -> Side {
-        self.region.as_ref().map_or(Side::Inside, |region| region.side(self.own(at), memory))
+        self.region.as_ref().map_or(Side::Inside, |(region, _)| region.side(self.own(at), memory))
     }
 
     fn may_cross(&self, area: &[f64; 4]) -> bool {
-        self.region.as_ref().is_some_and(|region| region.may_cross(area))
+        self.region.as_ref().is_some_and(|(_, border)| border.may_cross(area))
     }
 }
 
@@ -177,9 +180,13 @@ impl Cutter<'_> {
             self.pieces.push(Piece { from, to, label, jump });
             return;
         }
+        // As far as rounding lets it be said.
         let inside = |m: &MarchPoint| {
             let at = parameters(m);
-            (0..4).all(|c| low[c] <= at[c] && at[c] <= high[c])
+            (0..4).all(|c| {
+                let slack = 256.0 * f64::EPSILON * (low[c].abs() + high[c].abs());
+                low[c] - slack <= at[c] && at[c] <= high[c] + slack
+            })
         };
         match self.between(&from, &to, k).filter(inside) {
             Some(middle) => {

@@ -84,7 +84,7 @@ impl Plane<'_> {
     fn nearest(&self, pcurve: &Pcurve, at: [f64; 2]) -> f64 {
         let (a, b) = pcurve.domain();
         let far = |t: f64| self.apart(pcurve.evaluate(t), at);
-        let count = SAMPLES * pcurve.breaks().len().max(1);
+        let count = SAMPLES.max(4 * pcurve.breaks().len());
         let t = |k: usize| if k == count { b } else { a + (b - a) * k as f64 / count as f64 };
         let best = (0..=count).min_by(|&i, &j| far(t(i)).total_cmp(&far(t(j)))).unwrap_or(0);
         // Golden section between the neighbours, then what the ends are.
@@ -245,7 +245,7 @@ impl Plane<'_> {
         let mut points: Vec<[f64; 2]> = Vec::new();
         for &k in chain {
             let pcurve = &self.ways[k].pcurve;
-            let count = SAMPLES * pcurve.breaks().len().max(1);
+            let count = SAMPLES.max(8 * pcurve.breaks().len());
             points.extend(
                 (0..count).map(|i| pcurve.evaluate(pcurve.parameter_at(i as f64 / count as f64))),
             );
