@@ -288,7 +288,10 @@ fn bisection_makes_a_coarse_walk_as_fine_as_asked() {
     let found = intersect(&x, &y, &coarse, &mut |_, _| false).unwrap();
     for branch in &found.branches {
         // Up to the first seam.
-        let seam = branch.points.windows(2).position(|w| w[0].point == w[1].point);
+        let apart = |w: &[footpoint::march::MarchPoint]| {
+            (0..3).map(|k| (w[0].point[k] - w[1].point[k]).abs()).fold(0.0, f64::max)
+        };
+        let seam = branch.points.windows(2).position(|w| apart(w) < 1e-12);
         let points = &branch.points[..=seam.unwrap_or(branch.points.len() - 1)];
         if points.len() < 3 {
             continue;

@@ -162,6 +162,39 @@ fn two_halves_of_a_face_are_merged_to_the_whole() {
     let whole = first.merged(&second, Direction::U, part(0.0, 5.0), &options).unwrap();
     assert_eq!((whole.loops().len(), whole.loops()[0].coedges.len()), (1, 6));
     assert_eq!(whole.edges().len(), 6);
+    // A shorter face: what is left of the border keeps its part of the edge.
+    let shorter = {
+        let iso =
+            |fixed, at, from, to| Coedge::alone(Pcurve::isoline(fixed, at, from, to).unwrap());
+        let (u, v) = (Direction::U, Direction::V);
+        let coedges = vec![
+            iso(v, -0.6, 2.0, 5.0),
+            iso(u, 5.0, -0.6, 0.3),
+            iso(v, 0.3, 5.0, 2.0),
+            iso(u, 2.0, 0.3, -0.6),
+        ];
+        TrimmedSurface::new(right.clone(), Vec::new(), vec![Loop::outer(coedges)], false).unwrap()
+    };
+    let stepped = first.merged(&shorter, Direction::U, part(0.0, 5.0), &options).unwrap();
+    let kept: Vec<_> = stepped
+        .coedges()
+        .filter(|(_, _, c)| matches!(&c.pcurve, Pcurve::Isoline(l) if l.fixed == Direction::U && l.at == 2.0))
+        .collect();
+    assert_eq!(kept.len(), 2);
+    for (_, _, coedge) in kept {
+        assert!(coedge.edge.is_some());
+        for share in [0.0, 0.4, 1.0] {
+            let there = stepped.edge_point(coedge, share).unwrap();
+            let off = norm(sub(stepped.coedge_point(coedge, share), there));
+            // The edge has the parameters of the NURBS form between its ends.
+            assert!(
+                off < if share == 0.4 { 0.1 * radius } else { 1e-9 * radius },
+                "{share} {off:e}"
+            );
+        }
+    }
+    let report = stepped.report(0.0).unwrap();
+    assert!(report.is_valid() && report.gap_bound < 1e-6 * radius, "{report:?}");
     let report = whole.report(0.0).unwrap();
     assert!(report.is_valid() && (report.areas[0] - 10.0).abs() < 1e-9, "{report:?}");
     // Two faces with a notch each on the border make a hole; a shorter border leaves pieces of it.
@@ -236,14 +269,15 @@ fn a_face_is_followed_onto_other_axes() {
     let mirrored = made(Elementary::Sphere { axes: mirrored, radius: 2.0 }, domain);
     let turned = face.followed(mirrored.into(), &options).unwrap().face;
     assert!(turned.is_flipped() && turned.report(4e-4).unwrap().is_valid());
-    // A loop around the new seam cannot be one loop there.
+    // A loop around the new seam is two there, with a seam edge between them.
     let crossing = Axes { x: axes.x.map(|x| -x), y: axes.y.map(|x| -x), ..axes };
     let away = made(Elementary::Sphere { axes: crossing, radius: 2.0 }, domain);
     let arc = Pcurve::arc([PI, 0.3], [0.5, 0.0], [0.0, 0.4], [0.0, TAU]).unwrap();
     let loops = vec![Loop::outer(vec![Coedge::alone(arc)])];
     let across = TrimmedSurface::new(surface.into(), Vec::new(), loops, false).unwrap();
-    let text = across.followed(away.into(), &options).unwrap_err().to_string();
-    assert!(text.contains("crosses a seam"), "{text}");
+    let cut = across.followed(away.into(), &options).unwrap();
+    assert!(cut.proven && cut.face.loops().len() == 2 && cut.face.edges().len() == 1);
+    assert!(cut.face.report(4e-4).unwrap().is_valid());
 }
 
 #[test]

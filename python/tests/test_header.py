@@ -132,6 +132,7 @@ def reach_operate(curve, surface):
         operate.make_compatible([shape, finer])
     operate.periodic(curve, 1e-9), operate.periodic(surface, 1e-9, "u"), operate.swap(surface), operate.isocurve(surface, 0.5, "v")
     operate.frame(curve, 0.5), operate.continuity(curve), operate.from_power(operate.power(curve)[0], [0, 1])
+    operate.continuity(surface, direction="u"), operate.from_power(operate.power(surface)[0, 0], [0, 1, 0, 1])
     length = operate.ArcLength(curve)
     length.total, length.at([0.5]), length.parameters([0.5])
 

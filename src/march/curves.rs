@@ -20,6 +20,9 @@ use crate::pcurve::compose::Composer;
 use crate::pcurve::deviation::deviation;
 use crate::surface::Surface;
 
+/// Points nearer than this share of the length are one for a fit.
+const CLOSE: f64 = 1e-6;
+
 /// A branch, or the part of it between two seams, as curves with a common parameter.
 pub struct BranchCurves {
     /// In space.
@@ -126,25 +129,39 @@ fn run(
     let seven = |x: Vector, at: [f64; 4]| {
         [x[0], x[1], x[2], at[0] * scale[0], at[1] * scale[1], at[2] * scale[2], at[3] * scale[3]]
     };
-    let mut parameters = vec![0.0];
-    let mut list = vec![seven(
-        points[0].point,
-        [points[0].uv[0], points[0].uv[1], points[0].st[0], points[0].st[1]],
-    )];
-    for pair in points.windows(2) {
-        let length = norm(sub(pair[1].point, pair[0].point));
-        if length > 0.0 {
+    // Points much nearer to one another than the rest bend a cubic through them at will.
+    let apart = |pair: &[MarchPoint]| norm(sub(pair[1].point, pair[0].point));
+    let near = CLOSE * points.windows(2).map(apart).sum::<f64>();
+    let of = |p: &MarchPoint| seven(p.point, [p.uv[0], p.uv[1], p.st[0], p.st[1]]);
+    let (mut parameters, mut list) = (vec![0.0], vec![of(&points[0])]);
+    let mut kept = &points[0];
+    for (k, point) in points.iter().enumerate().skip(1) {
+        let length = norm(sub(point.point, kept.point));
+        let is_last = k + 1 == points.len();
+        if is_last && length <= near && list.len() > 1 {
+            list.pop();
+            list.push(of(point));
+        } else if length > near {
             parameters.push(parameters[parameters.len() - 1] + length);
-            list.push(seven(
-                pair[1].point,
-                [pair[1].uv[0], pair[1].uv[1], pair[1].st[0], pair[1].st[1]],
-            ));
+            list.push(of(point));
+            kept = point;
         }
     }
-    let total = parameters[parameters.len() - 1];
     if list.len() < 2 {
         return Err(Error::InvalidArgument("branch: has no length".into()));
     }
+    // The parameter runs to a power of two: knots that halve it, and what others do with them, are exact.
+    let length = parameters[parameters.len() - 1];
+    let mut total = 1.0;
+    while total < length {
+        total *= 2.0;
+    }
+    while 0.5 * total >= length && total > f64::MIN_POSITIVE {
+        total *= 0.5;
+    }
+    let count = parameters.len();
+    parameters.iter_mut().for_each(|t| *t *= total / length);
+    parameters[count - 1] = total;
     let base = interpolate(3.min(list.len() - 1), &parameters, &list)?.spline;
     let function = |t: f64| {
         let p = base.evaluate(t);

@@ -5,7 +5,7 @@
 //!   wrong direction   an outer loop that runs clockwise, an inner one that does not    sign of the area, with its error
 //!   crossing          two coedges that change sides                                    proven
 //!   touching          two coedges nearer than the tolerance away from common ends      none farther is named
-//!   edge gap          the image of a pcurve away from its edge                         at samples
+//!   edge gap          the image of a pcurve away from its edge                         found at samples, bounded between (`gap`)
 //!   containment       a hole outside, an outer loop inside another one                 winding numbers
 //!   sense             an edge that both of its coedges run along the same way          -
 //!   outside           a pcurve that leaves the domain                                  by its box
@@ -14,22 +14,18 @@
 //! Distances in the domain are measured with bounds of the speeds of the surface (`flat`): what is found to be apart by a
 //! length here may be nearer in space only where the surface is slower than its bound, as at a pole. Coedges without a finding are
 //! proven to be disjoint, the error of their segments included; next to a common end, up to a hundredth of the shorter one, only that their
-//! segments do not cross is. Edge gaps are the largest at
-//! [`GAP_SAMPLES`] places and at all corners of each coedge, not proven between them.
+//! segments do not cross is. Edge gaps are found at [`super::GAP_SAMPLES`] places and at all corners of each coedge, and have a proven
+//! bound where no function takes part.
 
 use super::flat::{Flat, Scale, far, meeting};
-use super::{EdgeCurve, LoopKind, TrimmedSurface, invalid, norm, sub};
-use crate::bounds::Vector;
-use crate::closest::{QueryOptions, Workspace};
+use super::gap::Gaps;
+use super::{LoopKind, TrimmedSurface, invalid, norm, sub};
 use crate::error::Error;
 use crate::pcurve::{Parameters, Pcurve};
 use crate::transform::between;
 
 /// Default tolerance as a share of the diagonal of the surface's box.
 pub const REPORT_TOLERANCE: f64 = 1e-7;
-
-/// Places on each coedge at which its edge is compared.
-pub const GAP_SAMPLES: usize = 33;
 
 /// Around a common end, this many tolerances are part of the corner.
 const CORNER: f64 = 8.0;
@@ -142,6 +138,9 @@ pub struct Report {
     pub largest_opening: f64,
     /// Largest distance of a pcurve's image and its edge at samples.
     pub largest_gap: f64,
+    /// Proven: no image of a pcurve and its edge are farther apart, at equal parameters where they share them, else as sets of points.
+    /// Infinite where a function takes part or a pcurve leaves the domain.
+    pub gap_bound: f64,
     /// Area of each loop in the domain; counter-clockwise is positive.
     pub areas: Vec<f64>,
     /// How far segments may be from the curves, a length; below the tolerance unless a curve is very long.
@@ -210,13 +209,14 @@ impl TrimmedSurface {
         let areas = checker.directions();
         checker.contacts();
         checker.containment();
-        let largest_gap = checker.gaps()?;
+        let [largest_gap, gap_bound] = checker.gaps()?;
         checker.senses();
         let errors = checker.flats.iter().flatten().map(|flat| flat.error);
         Ok(Report {
             tolerance,
             largest_opening,
             largest_gap,
+            gap_bound,
             areas,
             segment_error: errors.fold(0.0, f64::max),
             proven: scale.proven,
@@ -423,43 +423,27 @@ impl Checker<'_> {
         }
     }
 
-    fn gaps(&mut self) -> Result<f64, Error> {
-        let mut largest: f64 = 0.0;
-        let mut workspace = Workspace::default();
-        for [chain, number] in self.all() {
-            let coedge = &self.face.loops()[chain].coedges[number];
-            let Some(edge) = coedge.edge else { continue };
-            let curve = &self.face.edges()[edge].curve;
-            let (a, b) = coedge.pcurve.domain();
-            let mut shares: Vec<f64> =
-                (0..GAP_SAMPLES).map(|k| k as f64 / (GAP_SAMPLES - 1) as f64).collect();
-            shares.extend(coedge.pcurve.breaks().iter().map(|t| (t - a) / (b - a)));
-            let mut worst = (0.0f64, a);
-            for share in shares {
-                let point = self.face.coedge_point(coedge, share);
-                let parameter = coedge.pcurve.parameter_at(share);
-                let gap = if coedge.same_parameter || share == 0.0 || share == 1.0 {
-                    let there = self.face.edge_point(coedge, share);
-                    norm(sub(point, there.unwrap_or([f64::NAN; 3])))
-                } else {
-                    from_curve(curve, point, &mut workspace)
-                };
-                if gap.is_nan() {
-                    let place = Place { chain, coedge: number, parameter };
-                    self.findings.push(Finding::Failing { place });
-                    break;
-                }
-                if gap > worst.0 {
-                    worst = (gap, parameter);
-                }
+    /// The largest gap at samples, and a bound of all.
+    fn gaps(&mut self) -> Result<[f64; 2], Error> {
+        let (mut largest, mut bound) = (0.0f64, 0.0f64);
+        let face = self.face;
+        let mut gaps = Gaps::new(face, self.tolerance)?;
+        for (chain, number, coedge) in face.coedges() {
+            let Some(edge) = coedge.edge.map(|edge| &face.edges()[edge]) else { continue };
+            let (gap, parameter) = gaps.measured(coedge, edge);
+            let place = Place { chain, coedge: number, parameter };
+            if gap.is_nan() {
+                self.findings.push(Finding::Failing { place });
+                bound = f64::INFINITY;
+                continue;
             }
-            largest = largest.max(worst.0);
-            if worst.0 > self.tolerance {
-                let place = Place { chain, coedge: number, parameter: worst.1 };
-                self.findings.push(Finding::EdgeGap { place, gap: worst.0 });
+            largest = largest.max(gap);
+            bound = bound.max(gaps.bound(coedge, edge)?.max(gap));
+            if gap > self.tolerance {
+                self.findings.push(Finding::EdgeGap { place, gap });
             }
         }
-        Ok(largest)
+        Ok([largest, bound])
     }
 
     fn senses(&mut self) {
@@ -474,16 +458,6 @@ impl Checker<'_> {
                 self.findings.push(Finding::Sense { edge });
             }
         }
-    }
-}
-
-/// Distance of a point from a curve.
-fn from_curve(curve: &EdgeCurve, point: Vector, workspace: &mut Workspace) -> f64 {
-    let options = QueryOptions::default();
-    match curve {
-        EdgeCurve::Spline(curve) => curve.closest(point, None, &options, workspace, None).distance,
-        EdgeCurve::Callback(curve) => curve.closest(point, None, &options, None).distance,
-        EdgeCurve::Point(there) => norm(sub(point, *there)),
     }
 }
 
