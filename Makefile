@@ -6,12 +6,13 @@ JOBS   ?= $(shell nproc 2>/dev/null || echo 2)
 SEED    ?= 1
 QUERIES ?= 10000000
 WEIGHTS ?= 10000
+RUNS    ?= 3
 PLACES  ?= 1000000
 THREADS ?= $(JOBS)
 CASES   ?= ../shared/cases
 OCCT_PACKAGES = libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev
 
-.PHONY: help build test test-rust test-c test-python test-freecad stress weights-stress trims-stress demo demo-weights compare-occt compare-fit bench bench-drivers bench-instructions install deb abi-baseline clean
+.PHONY: help build test test-rust test-c test-python test-freecad stress weights-stress trims-stress demo demo-weights compare-occt compare-fit compare-intersect bench bench-drivers bench-instructions install deb abi-baseline clean
 
 help:
 	@echo "make build             build the library, shared and static, into $(BUILD)/lib"
@@ -24,6 +25,7 @@ help:
 	@echo "make demo-weights      the part of it that finds weights from wished distances, with two figures"
 	@echo "make compare-occt      compare the extrema with OpenCASCADE 7.6 on the cases in $(CASES) (minutes)"
 	@echo "make compare-fit       fit surfaces to grids of 100,000 points, beside OpenCASCADE (three minutes)"
+	@echo "make compare-intersect intersect pairs of surfaces beside OpenCASCADE and SISL, in turns (two minutes); RUNS=3"
 	@echo "make bench             time against OpenCASCADE, SISL and CGAL on the cases in $(CASES) (ten minutes); tables and"
 	@echo "                       pictures go to bench-out/; BENCH_QUICK=1 takes a fifth of the cases (two minutes)"
 	@echo "make bench-instructions  count instructions per query with callgrind, beside docs/instructions.csv; RECORD=1 appends"
@@ -150,6 +152,15 @@ compare-fit: build
 	cmake -S compare/occt -B $(BUILD)/compare-occt -DFOOTPOINT_LIB="$(abspath $(BUILD))/lib"
 	cmake --build $(BUILD)/compare-occt -j $(JOBS) --target compare_fit
 	$(BUILD)/compare-occt/compare_fit
+
+# A library that cannot be had is left out.
+compare-intersect: build
+	$(call need,cmake g++)
+	-$(call need,,$(OCCT_PACKAGES))
+	-$(call need,,libsisl-dev)
+	cmake -S compare/intersect -B $(BUILD)/compare-intersect -DFOOTPOINT_LIB="$(abspath $(BUILD))/lib"
+	cmake --build $(BUILD)/compare-intersect -j $(JOBS)
+	$(BUILD)/compare-intersect/pairs $(RUNS)
 
 # A library that cannot be had is left out, and the tables say so.
 bench-drivers: build

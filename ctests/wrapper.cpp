@@ -584,6 +584,10 @@ void surfaces_meet_in_branches() {
         const auto curves = found.curves(saddle, flat, i, 1e-7);
         CHECK(curves.error < 1e-7 && curves.part_count == 1 && curves.uv.degree() == 3);
     }
+    const footpoint::support a(saddle), b(flat);
+    const footpoint::trimmed_surface first(a), second(b);
+    const footpoint::surface_intersection faces(first, second);
+    CHECK(faces.size() == found.size() && faces.split(first, 0, 1e-6).size() >= 2);
     const footpoint::surface_intersection same(flat, flat);
     CHECK(same.summary().overlap_count >= 1 && same.overlap(0)[1] > 0);
     bool refused = false;

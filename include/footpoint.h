@@ -701,6 +701,10 @@ typedef enum fpt_branch_end {
      * An undecided box is there.
      */
     FPT_BRANCH_END_UNDECIDED = 3,
+    /**
+     * A trim: end_index is 0 for one of A, 1 for one of B.
+     */
+    FPT_BRANCH_END_TRIM = 4,
 } fpt_branch_end;
 
 /**
@@ -2557,13 +2561,25 @@ typedef struct fpt_intersection_branch {
      */
     double gap;
     /**
+     * Proven: between two points the branch stays within this of their chord. Infinite where nothing is proven.
+     */
+    double chord;
+    /**
      * 1: the surfaces touch along it.
      */
     uint32_t is_tangential;
     /**
+     * 1: it bounds an area in which the surfaces coincide; then it is tangential too.
+     */
+    uint32_t bounds_overlap;
+    /**
      * 1: it is a loop; its first point comes again as the last.
      */
     uint32_t is_closed;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
     /**
      * Values of fpt_branch_end, of its beginning and its end.
      */
@@ -7047,6 +7063,26 @@ fpt_status fpt_intersect_surfaces(const struct fpt_surface *a,
                                   struct fpt_surface_intersection **out);
 
 /**
+ * All that two faces have in common: as fpt_intersect_surfaces of their supports, cut off at their trims (FPT_BRANCH_END_TRIM). A whole
+ * support is a face too: fpt_trim_whole.
+ *
+ * Parameters are those of the supports; elementary ones are intersected in their exact NURBS form. A support given by a function is meshed
+ * and walked along: nothing is proven then, and one undecided box is all of both domains. A face holds its border; what runs along
+ * a trim is kept, and listed as undecided.
+ *
+ * @param a, b     the faces
+ * @param options  NULL: the defaults
+ * @param out      the result; release it with fpt_surface_intersection_free
+ * @return FPT_BUDGET_EXHAUSTED with a result that misses what lies in its undecided boxes
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_intersect_trims(const struct fpt_trim *a,
+                               const struct fpt_trim *b,
+                               const struct fpt_intersect_surfaces_options *options,
+                               struct fpt_surface_intersection **out);
+
+/**
  * Counts and verdicts.
  * @since 0.1
  */
@@ -7122,8 +7158,8 @@ fpt_status fpt_surface_intersection_undecided(const struct fpt_surface_intersect
  * @param part        which part between two seams; beyond the count of parts FPT_INVALID_ARGUMENT
  * @param out_count   the number of parts
  * @param out_curves  3 handles: in space, in A's domain, in B's domain; release each with fpt_curve_free
- * @param out_error   greatest distance that was measured, 16 places a span: of the curve from either surface (certified), and from
- *                    the surface points at its parameters
+ * @param out_error   proven: at equal parameters the curve is nowhere farther from the surface points at its parameters, and so from
+ *                    both surfaces
  * @since 0.1
  */
 FPT_MUST_USE
@@ -7136,6 +7172,25 @@ fpt_status fpt_surface_intersection_curves(const struct fpt_surface_intersection
                                            size_t *out_count,
                                            struct fpt_curve **out_curves,
                                            double *out_error);
+
+/**
+ * The faces into which the branches cut one of the two faces that they came from. Cuts are polylines in its domain and in space, as near as the
+ * chord tolerance made them. Branches that end inside the face, and tangential ones, cut nothing.
+ *
+ * @param trim       the first (which = 0) or the second (which = 1) face of the intersection
+ * @param tolerance  length, > 0: within it ends of branches meet loops and one another
+ * @param capacity   room in out_trims, at least the number of faces, else FPT_INVALID_ARGUMENT with *out_count set
+ * @param out_trims  handles; release each with fpt_trim_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_intersection_split(const struct fpt_surface_intersection *intersection,
+                                          const struct fpt_trim *trim,
+                                          uint32_t which,
+                                          double tolerance,
+                                          size_t capacity,
+                                          struct fpt_trim **out_trims,
+                                          size_t *out_count);
 
 /**
  * Releases an intersection. NULL is fine. No other call may use the handle during or after this one.

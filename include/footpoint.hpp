@@ -2232,7 +2232,7 @@ struct intersect_surfaces_options : fpt_intersect_surfaces_options {
     }
 };
 
-/** A branch as curves in space and in both domains, and the greatest distance that was measured. */
+/** A branch as curves in space and in both domains, and the proven error. */
 struct branch_curves {
     curve space, uv, st;
     double error;
@@ -2247,6 +2247,15 @@ public:
                          const fpt_intersect_surfaces_options &options = intersect_surfaces_options()) {
         fpt_surface_intersection *out = nullptr;
         const fpt_status status = fpt_intersect_surfaces(a.get(), b.get(), &options, &out);
+        if (status != FPT_BUDGET_EXHAUSTED) check(status);
+        handle_.reset(out);
+    }
+
+    /** As fpt_intersect_trims. */
+    surface_intersection(const trimmed_surface &a, const trimmed_surface &b,
+                         const fpt_intersect_surfaces_options &options = intersect_surfaces_options()) {
+        fpt_surface_intersection *out = nullptr;
+        const fpt_status status = fpt_intersect_trims(a.get(), b.get(), &options, &out);
         if (status != FPT_BUDGET_EXHAUSTED) check(status);
         handle_.reset(out);
     }
@@ -2294,6 +2303,20 @@ public:
         double error = 0;
         check(fpt_surface_intersection_curves(get(), a.get(), b.get(), index, tolerance, part, &count, out, &error));
         return {curve(out[0]), curve(out[1]), curve(out[2]), error, count};
+    }
+    /** As fpt_surface_intersection_split. */
+    std::vector<trimmed_surface> split(const trimmed_surface &face, std::uint32_t which, double tolerance) const {
+        std::vector<fpt_trim *> out(16);
+        std::size_t count = 0;
+        fpt_status status = fpt_surface_intersection_split(get(), face.get(), which, tolerance, out.size(), out.data(), &count);
+        if (status == FPT_INVALID_ARGUMENT && count > out.size()) {
+            out.resize(count);
+            status = fpt_surface_intersection_split(get(), face.get(), which, tolerance, out.size(), out.data(), &count);
+        }
+        check(status);
+        std::vector<trimmed_surface> parts;
+        for (std::size_t i = 0; i < count; i++) parts.emplace_back(out[i]);
+        return parts;
     }
 
 private:

@@ -223,8 +223,9 @@ class IntersectionSummary(ctypes.Structure):
 
 
 class IntersectionBranch(ctypes.Structure):
-    _fields_ = [("point_count", c_size_t), ("gap", c_double), ("is_tangential", c_uint32), ("is_closed", c_uint32),
-                ("end_kind", c_uint32 * 2), ("end_index", c_uint32 * 2)]
+    _fields_ = [("point_count", c_size_t), ("gap", c_double), ("chord", c_double), ("is_tangential", c_uint32),
+                ("bounds_overlap", c_uint32), ("is_closed", c_uint32), ("reserved", c_uint32), ("end_kind", c_uint32 * 2),
+                ("end_index", c_uint32 * 2)]
 
 
 class IntersectionPoint(ctypes.Structure):
@@ -413,7 +414,8 @@ _STATUS = {
     "curve_arc_by_angle": "ppppp", "face_new": "ppp", "face_of_trim": "ppp", "face_classify": "ppzpp", "face_closest": "ppzppp", "face_preimage": "ppdpp",
     "intersect_surfaces": "pppp", "surface_intersection_summary": "pp", "surface_intersection_branch": "pzp",
     "surface_intersection_points": "pzzp", "surface_intersection_contact": "pzp", "surface_intersection_overlap": "pzp",
-    "surface_intersection_undecided": "pzp", "surface_intersection_curves": "pppzdzppp",
+    "surface_intersection_undecided": "pzp", "surface_intersection_curves": "pppzdzppp", "intersect_trims": "pppp",
+    "surface_intersection_split": "ppIdzpp",
     "fair_curve": "ppp", "fair_surface": "ppp", "fair_report_summary": "pp", "fair_report_energies": "pzp", "fair_report_curve": "pp",
     "fair_report_surface": "pp", "inspect_curve_range": "ppp", "inspect_surface_range": "pIpp", "inspect_comb": "ppzp",
     "inspect_curvatures": "ppzp", "inspect_monotone_pieces": "pp", "inspect_inflections": "ppp", "inspect_umbilics": "ppp",

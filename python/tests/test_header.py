@@ -199,6 +199,13 @@ def test_every_function_is_reached(monkeypatch):
     assert repr(footpoint.intersect_surfaces(ball, flat))
     with pytest.raises(Exception):
         met._contact(99)
+    whole = [trims.TrimmedSurface.whole(trims.Support(shape)) for shape in (ball, flat)]
+    cut = footpoint.intersect_trims(*whole)
+    assert len(cut.split(0, 1e-6)) >= 1 and len(cut.branches) == len(footpoint.intersect_surfaces(ball, flat).branches)
+    with pytest.raises(TypeError):
+        cut.curves(0, 1e-4)
+    with pytest.raises(TypeError):
+        met.split(0, 1e-6)
     assert len(footpoint.intersect_surfaces(surface, flat, budget=2).undecided)
     line, plane = footpoint.Curve.from_poles(1, [[-5, 0, 1], [5, 0, 1]]), intersect.Quadric.plane([0, 0, 1], [0, 0, 1])
     intersect.curves(curve, curve, budget=50), intersect.surface_curve(surface, line), intersect.curve_quadric(line, plane)
