@@ -221,7 +221,9 @@ impl<'a> Setting<'a> {
     }
 }
 
-/// From the parameter of [`Pcurve::as_spline`] to that of the pcurve.
+/// From the parameter of [`Pcurve::as_spline`] to that of the pcurve. Not inlined: in a loop over coedges the compiler would round the
+/// angles up before it has looked whether the curve is an arc, and memory checkers complain of what was never written.
+#[inline(never)]
 fn own_parameter(pcurve: &Pcurve) -> Result<Option<Relation>, Error> {
     let Pcurve::Arc(arc) = pcurve else { return Ok(None) };
     let sweep = arc.angles[1] - arc.angles[0];

@@ -124,9 +124,7 @@ fn flat([u, v]: [f64; 2]) -> [f64; 3] {
     [u, v, 0.0]
 }
 
-/// An arc in pieces of at most a quarter turn; the middle pole of each is where its end tangents meet. Not inlined: the compiler
-/// would round the angles up before it has looked whether the curve is an arc, and memory checkers complain.
-#[inline(never)]
+/// An arc in pieces of at most a quarter turn; the middle pole of each is where its end tangents meet.
 fn quarters(curve: &Pcurve, arc: &EllipseArc) -> Result<Curve, Error> {
     let [a, b] = arc.angles;
     let count = ((b - a) / std::f64::consts::FRAC_PI_2 - 1e-9).ceil().max(1.0);
