@@ -183,6 +183,7 @@ typedef enum fpt_branch_end {
     FPT_BRANCH_END_BORDER = 1,
     FPT_BRANCH_END_CONTACT = 2,
     FPT_BRANCH_END_UNDECIDED = 3,
+    FPT_BRANCH_END_TRIM = 4,
 } fpt_branch_end;
 typedef enum fpt_section_end {
     FPT_SECTION_END_CLOSED = 0,
@@ -645,8 +646,11 @@ typedef struct fpt_intersection_summary {
 typedef struct fpt_intersection_branch {
     size_t point_count;
     double gap;
+    double chord;
     uint32_t is_tangential;
+    uint32_t bounds_overlap;
     uint32_t is_closed;
+    uint32_t reserved;
     uint32_t end_kind[2];
     uint32_t end_index[2];
 } fpt_intersection_branch;
@@ -2029,6 +2033,11 @@ fpt_status fpt_intersect_surfaces(const struct fpt_surface *a,
                                   const struct fpt_intersect_surfaces_options *options,
                                   struct fpt_surface_intersection **out);
 FPT_MUST_USE
+fpt_status fpt_intersect_trims(const struct fpt_trim *a,
+                               const struct fpt_trim *b,
+                               const struct fpt_intersect_surfaces_options *options,
+                               struct fpt_surface_intersection **out);
+FPT_MUST_USE
 fpt_status fpt_surface_intersection_summary(const struct fpt_surface_intersection *intersection,
                                             struct fpt_intersection_summary *out);
 FPT_MUST_USE
@@ -2062,6 +2071,14 @@ fpt_status fpt_surface_intersection_curves(const struct fpt_surface_intersection
                                            size_t *out_count,
                                            struct fpt_curve **out_curves,
                                            double *out_error);
+FPT_MUST_USE
+fpt_status fpt_surface_intersection_split(const struct fpt_surface_intersection *intersection,
+                                          const struct fpt_trim *trim,
+                                          uint32_t which,
+                                          double tolerance,
+                                          size_t capacity,
+                                          struct fpt_trim **out_trims,
+                                          size_t *out_count);
 void fpt_surface_intersection_free(struct fpt_surface_intersection *intersection);
 void fpt_inspect_options_init(struct fpt_inspect_options *options, size_t struct_size);
 void fpt_inspect_picture_options_init(struct fpt_inspect_picture_options *options,
