@@ -19,7 +19,7 @@ pub mod side {
     pub const T1: usize = 3;
 }
 
-/// One Bezier patch; its numbers are in [`SurfaceIndex`]'s arrays.
+/// One Bezier patch; its numbers are in the arrays of the index.
 #[derive(Clone, Debug)]
 pub struct Patch {
     /// Parameters of s.
