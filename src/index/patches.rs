@@ -96,11 +96,11 @@ impl SurfaceIndex {
     /// Makes [`Self::reach`], once, of what building left for it.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`].
-    pub fn measure_reach(&mut self) -> Result<(), Error> {
+    /// [`Error::OutOfMemory`], [`Error::Cancelled`].
+    pub fn measure_reach(&mut self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error> {
         let (cells, raster) = std::mem::take(&mut self.cells);
         if self.analytic.is_none() {
-            self.reach = Some(Reach::new(&cells, &self.patches, raster)?);
+            self.reach = Some(Reach::new(&cells, &self.patches, raster, poll)?);
         }
         Ok(())
     }

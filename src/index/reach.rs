@@ -29,6 +29,12 @@ use crate::error::Error;
 pub use cell::{Cell, push_cells};
 use field::Field;
 pub use raster::Raster;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// Cells of a piece of work, and pieces from which on all cores work.
+const TILE: usize = 256;
+const MANY: usize = 16;
 
 /// Bounds are rounded up by this share.
 const MARGIN: f64 = 1.0 + 1e-6;
@@ -44,17 +50,51 @@ pub struct Reach {
     rims: [Vec<f32>; 4],
 }
 impl Reach {
-    /// From the cells of all patches, in their order.
+    /// From the cells of all patches, in their order; `poll` is asked now and then whether to stop. All cores work on many
+    /// cells; the bits do not depend on them.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`].
-    pub fn new(cells: &[Cell], patches: &[Patch], raster: Raster) -> Result<Self, Error> {
+    /// [`Error::OutOfMemory`], [`Error::Cancelled`].
+    pub fn new(
+        cells: &[Cell],
+        patches: &[Patch],
+        raster: Raster,
+        poll: &mut dyn FnMut() -> bool,
+    ) -> Result<Self, Error> {
         let field = Field::new(cells, patches, &raster)?;
         let mut bends = reserved(cells.len())?;
+        bends.resize(cells.len(), [f32::INFINITY; 2]);
         let columns = field.size[1];
-        for k in 0..cells.len() {
-            let bend = field.bend([k / columns, k % columns]);
-            bends.push(bend.map(|x| ((x * MARGIN) as f32).next_up()));
+        let mut tiles = reserved(cells.len().div_ceil(TILE))?;
+        tiles.extend(bends.chunks_mut(TILE).map(|tile| Mutex::new(Some(tile))));
+        let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
+        let work = |poll: &mut dyn FnMut() -> bool| {
+            loop {
+                let k = next.fetch_add(1, Ordering::Relaxed);
+                if stop.load(Ordering::Relaxed) || k >= tiles.len() {
+                    return;
+                }
+                if poll() {
+                    return stop.store(true, Ordering::Relaxed);
+                }
+                let tile = tiles[k].lock().unwrap_or_else(PoisonError::into_inner).take();
+                for (n, bend) in tile.into_iter().flatten().enumerate() {
+                    let at = k * TILE + n;
+                    let found = field.bend([at / columns, at % columns]);
+                    *bend = found.map(|x| ((x * MARGIN) as f32).next_up());
+                }
+            }
+        };
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        std::thread::scope(|scope| {
+            for _ in 1..if tiles.len() < MANY { 1 } else { cores } {
+                // A thread that could not be started leaves its share to the others.
+                let _ = std::thread::Builder::new().spawn_scoped(scope, || work(&mut || false));
+            }
+            work(poll);
+        });
+        if stop.load(Ordering::Relaxed) {
+            return Err(Error::Cancelled);
         }
         let mut rims: [Vec<f32>; 4] = Default::default();
         for (side, list) in rims.iter_mut().enumerate() {

@@ -159,7 +159,7 @@ impl IndexedSurface {
             if !self.general {
                 index.recognise();
             }
-            index.measure_reach()?;
+            index.measure_reach(poll)?;
             Ok(index)
         })
     }

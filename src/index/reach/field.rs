@@ -80,7 +80,8 @@ impl Field {
             };
             (0..size[k]).map(reach).collect()
         });
-        let boxes = ordered.iter().map(|cell: &Cell| cell.bounds).collect();
+        let mut boxes = reserved(ordered.len())?;
+        boxes.extend(ordered.iter().map(|cell: &Cell| cell.bounds));
         let mut layers = vec![Layer { size, boxes }];
         while layers[layers.len() - 1].boxes.len() > 1 {
             layers.push(Layer::over(&layers[layers.len() - 1])?);
