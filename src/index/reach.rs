@@ -74,7 +74,7 @@ impl Reach {
                 if stop.load(Ordering::Relaxed) || k >= tiles.len() {
                     return;
                 }
-                if poll() {
+                if k > 0 && poll() {
                     return stop.store(true, Ordering::Relaxed);
                 }
                 let tile = tiles[k].lock().unwrap_or_else(PoisonError::into_inner).take();
