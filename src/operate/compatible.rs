@@ -8,7 +8,7 @@
 use super::refinement::merged;
 use super::{Direction, Surface};
 use crate::curve::Curve;
-use crate::curve::insertion::checked;
+use crate::curve::insertion::{checked, spare};
 use crate::error::Error;
 use crate::knots::Knots;
 
@@ -84,6 +84,8 @@ struct Union {
 
 impl Union {
     fn new<'a>(all: impl Iterator<Item = &'a Knots> + Clone) -> Result<Self, Error> {
+        // Distinct knots with their steps, what they mean, the common ones.
+        spare(all.clone().map(|knots| knots.values().len()).sum(), 128)?;
         let far = all.clone().flat_map(Knots::values).fold(0.0, |far: f64, u| far.max(u.abs()));
         let mut distinct: Vec<(f64, f64)> = all.clone().flat_map(with_steps).collect();
         distinct.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -122,6 +124,7 @@ impl Union {
 
     /// The vector with its knots moved onto the common ones, and those that it lacks.
     fn apply(&self, knots: &Knots) -> Result<(Knots, Vec<f64>), Error> {
+        spare(knots.values().len() + self.common.len(), 3 * size_of::<f64>())?;
         let values = self.meant(knots.values());
         let added = lacking(&values, &self.common);
         Ok((checked(&values, knots.degree())?, added))
@@ -163,6 +166,7 @@ impl Curve {
         if !wanted || self.weights().is_some() {
             return Ok(self);
         }
+        spare(self.poles().len(), size_of::<f64>())?;
         let weights = vec![1.0; self.poles().len()].into_boxed_slice();
         Ok(Self::from_parts(self.knots().clone(), self.poles().into(), Some(weights)))
     }
@@ -174,6 +178,7 @@ impl Surface {
         if !wanted || self.weights().is_some() {
             return Ok(self);
         }
+        spare(self.poles().len(), size_of::<f64>())?;
         let weights = vec![1.0; self.poles().len()].into_boxed_slice();
         let [u, v] = [self.knots_u().clone(), self.knots_v().clone()];
         Ok(Self::from_parts(u, v, self.poles().into(), Some(weights)))

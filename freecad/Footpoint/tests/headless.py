@@ -396,11 +396,11 @@ def test_refusals():
 
 
 def test_guide():
-    """The program of the guide for FreeCAD users, as it stands there."""
+    """The programs of the guide for FreeCAD users, as they stand there."""
     with open(os.path.join(HERE, "..", "..", "..", "docs", "guide.md"), encoding="utf-8") as stream:
         section = stream.read().split("## FreeCAD users")[1].split("\n## ")[0]
     programs = [part.split("```")[0] for part in section.split("```python\n")[1:]]
-    assert len(programs) == 1
+    assert len(programs) == 2
     for program in programs:
         exec(compile(program, "guide", "exec"), {})
 
