@@ -85,7 +85,7 @@ pub struct Pieces {
 }
 
 /// How far a pole of a part may be off, of patches whose poles are at most `radius` from their centres and `size` from the origin;
-/// `extracted`: degrees of the directions whose nets are not Bezier nets from the start; `most`: the greater degree: docs/rounding.md, section 22.
+/// `extracted`: degrees of the directions whose nets are not Bezier nets from the start; `most`: the greater degree: docs/rounding.md, section 23.
 fn rounding((extracted, most): (usize, usize), rational: bool, radius: f64, size: f64) -> f64 {
     let (net, halving) = (6 * extracted + 4, most + 2);
     // A weight has as much, and is divided by.
