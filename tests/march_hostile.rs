@@ -271,7 +271,7 @@ fn polynomial(n: usize, terms: &[(usize, usize, f64)]) -> Surface {
         let mut sum = 0.0;
         for a in 0..=i {
             if a <= k && i - a <= n - k {
-                let sign = if (i - a) % 2 == 0 { 1.0 } else { -1.0 };
+                let sign = if (i - a).is_multiple_of(2) { 1.0 } else { -1.0 };
                 sum += sign * choose(k, a) * choose(n - k, i - a);
             }
         }
@@ -288,8 +288,11 @@ fn polynomial(n: usize, terms: &[(usize, usize, f64)]) -> Surface {
     Surface::new(&knots, &knots, n, n, &poles, n + 1, n + 1, None).unwrap()
 }
 
+/// Exponents of x and y, and the factor.
+type Terms = Vec<(usize, usize, f64)>;
+
 /// Terms of a difference, the contacts, and how many branches are open, closed, tangential.
-type Singular<'a> = (&'a str, Vec<(usize, usize, f64)>, &'a [ContactKind], [usize; 3]);
+type Singular<'a> = (&'a str, Terms, &'a [ContactKind], [usize; 3]);
 
 #[test]
 fn bicubics_that_touch_and_branch_are_classified() {
@@ -328,7 +331,7 @@ fn bicubics_that_touch_and_branch_are_classified() {
 
 #[test]
 fn contact_of_high_order_and_near_coincidence_are_honest() {
-    let cases: [(&str, Vec<(usize, usize, f64)>); 12] = [
+    let cases: [(&str, Terms); 12] = [
         ("touch of fourth order", vec![(4, 0, 1.0), (0, 4, 1.0)]),
         ("six arms", vec![(3, 0, 1.0), (1, 2, -3.0)]),
         ("eight arms", vec![(3, 1, 1.0), (1, 3, -1.0)]),
