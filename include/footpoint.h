@@ -2579,6 +2579,14 @@ typedef struct fpt_inspect_options {
      * Handed to should_stop as it is.
      */
     void *user;
+    /**
+     * Ranges: a value of fpt_inspect_side, which extremes must have the gap; bounds of the other one are true, but loose.
+     */
+    uint32_t side;
+    /**
+     * Must be 0.
+     */
+    uint32_t reserved;
 } fpt_inspect_options;
 
 /**
@@ -2698,13 +2706,15 @@ typedef struct fpt_fair_options {
      */
     double region[4];
     /**
-     * Steps at most; 0: the default, 60 (curves), 40 (surfaces).
+     * Solutions of the equations at most, five a step (local methods: steps, eight a pole at least); 0: the default, 300 (curves), 150
+     * (surfaces).
      */
     uint32_t steps;
     /**
-     * Must be 0.
+     * Planar curves, FPT_FAIR_ENERGY: 1: no more changes of the side to which the curve bends than the curve of least jerk by length
+     * has that the constraints allow; as much of that energy is added as this takes. 0: only the energy asked for. Default 1.
      */
-    uint32_t reserved;
+    uint32_t calm;
     /**
      * Asked on the calling thread between steps; non-zero ends the call with FPT_CANCELLED. NULL: never.
      */
@@ -2713,6 +2723,11 @@ typedef struct fpt_fair_options {
      * Handed to should_stop as it is.
      */
     void *user;
+    /**
+     * Curves, FPT_FAIR_ENERGY: weight of the integral of the squared change of the curvature vector along the arc length of the curve
+     * as it becomes: (dk/ds)^2 of planar curves, (dk/ds)^2 + k^2 tau^2 in space; finite, >= 0. Default 0.
+     */
+    double slope;
 } fpt_fair_options;
 
 /**
@@ -2746,7 +2761,7 @@ typedef struct fpt_fair_summary {
 } fpt_fair_summary;
 
 /**
- * The least and the greatest value of a quantity, each between two bounds: 88 bytes, frozen.
+ * The least and the greatest value of a quantity, each between two bounds: 96 bytes, frozen.
  */
 typedef struct fpt_inspect_range {
     /**
@@ -2766,10 +2781,15 @@ typedef struct fpt_inspect_range {
      */
     double at_greatest[2];
     /**
-     * Share of the domain of which nothing is proven: beside collapsed edges and cusps, where curvatures are not bounded. The
-     * bounds hold for the rest.
+     * Share of the domain of which nothing is proven: beside tips and cusps, where curvatures are not bounded. The bounds hold for
+     * the rest.
      */
     double excluded;
+    /**
+     * Length. 0: the bounds are those of the shape. Otherwise those of a shape from which no point of this one is farther, which is
+     * rounding: beside a pole the rounding of its coordinates alone makes curvatures infinite.
+     */
+    double moved;
     /**
      * Boxes looked at.
      */

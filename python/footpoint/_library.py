@@ -228,8 +228,8 @@ class FairOptions(ctypes.Structure):
     _fields_ = [("struct_size", c_size_t), ("deviation", c_double), ("strain", c_double), ("jerk", c_double), ("distance", c_double),
                 ("method", c_uint32), ("by_length", c_uint32), ("ends", c_uint32 * 2), ("borders", c_uint32 * 4), ("fixed", c_void_p),
                 ("fixed_count", c_size_t), ("through", c_void_p), ("through_count", c_size_t), ("knots", c_void_p), ("knot_count", c_size_t),
-                ("length", c_double * 2), ("region", c_double * 4), ("steps", c_uint32), ("reserved", c_uint32),
-                ("should_stop", StopFunction), ("user", c_void_p)]
+                ("length", c_double * 2), ("region", c_double * 4), ("steps", c_uint32), ("calm", c_uint32),
+                ("should_stop", StopFunction), ("user", c_void_p), ("slope", c_double)]
 
 
 class FairSummary(ctypes.Structure):
@@ -239,7 +239,7 @@ class FairSummary(ctypes.Structure):
 
 class InspectOptions(ctypes.Structure):
     _fields_ = [("struct_size", c_size_t), ("domain", c_double * 4), ("relative", c_double), ("accuracy", c_double), ("budget", c_uint64),
-                ("should_stop", StopFunction), ("user", c_void_p)]
+                ("should_stop", StopFunction), ("user", c_void_p), ("side", c_uint32), ("reserved", c_uint32)]
 
 
 class InspectPictureOptions(ctypes.Structure):
@@ -249,7 +249,7 @@ class InspectPictureOptions(ctypes.Structure):
 
 class InspectRange(ctypes.Structure):
     _fields_ = [("least", c_double * 2), ("greatest", c_double * 2), ("at_least", c_double * 2), ("at_greatest", c_double * 2),
-                ("excluded", c_double), ("boxes", c_uint64), ("proven", c_uint32), ("reserved", c_uint32)]
+                ("excluded", c_double), ("moved", c_double), ("boxes", c_uint64), ("proven", c_uint32), ("reserved", c_uint32)]
 
 
 class InspectTooth(ctypes.Structure):
