@@ -418,7 +418,7 @@ static void short_structs_and_nulls_are_refused(void) {
     CHECK_ERROR(fpt_inspect_comb(curve, NULL, 3, NULL), FPT_NULL_ARGUMENT, "parameters");
     CHECK_ERROR(fpt_inspect_curvatures(surface, NULL, 3, NULL), FPT_NULL_ARGUMENT, "parameters");
     CHECK_ERROR(fpt_inspect_picture(surface, NULL, 3 * 640 * 480, NULL, NULL), FPT_NULL_ARGUMENT, "out_pixels");
-    CHECK_ERROR(fpt_inspect_border(surface, 0, NULL, 0, NULL, &meet), FPT_NULL_ARGUMENT, "surface_b");
+    CHECK_ERROR(fpt_inspect_border(surface, 0, NULL, 0, NULL, &meet), FPT_NULL_ARGUMENT, "surface");
     CHECK_ERROR(fpt_inspect_hausdorff(curve, NULL, curve, NULL, NULL, NULL, &back), FPT_NULL_ARGUMENT, "out_forward");
     CHECK_ERROR(fpt_inspect_hausdorff(curve, NULL, curve, NULL, NULL, &there, NULL), FPT_NULL_ARGUMENT, "out_backward");
     fpt_surface_free(surface);

@@ -401,6 +401,11 @@ pub fn fair_curve(
     };
     let mut state = State::new(curve.poles(), 0.0);
     state.energies[0] = problem.value(curve.poles(), curve.poles());
+    if !state.last().is_finite() {
+        let text =
+            "strain: its energy, that of jerk or slope or of the shape is too large for a number";
+        return Err(Error::InvalidArgument(text.into()));
+    }
     let mut run = |problem: &mut Problem, state: &mut State| match fairing.method {
         Method::Energy => problem.run(state, fairing.steps),
         Method::Local => problem.run_local(state, fairing.steps),

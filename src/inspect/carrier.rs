@@ -90,9 +90,10 @@ fn difference(index: &SurfaceIndex, k: usize, e: f64) -> Option<f64> {
         return None;
     }
     let least = area.low / ((first.high + last.high) * weight.high * weight.high);
-    // The distance's numerator has at most four times the degree of the piece (tori), and the weights' power below it.
+    // The numerator of the implicit form has at most four times the degree of the piece (tori), and the fourth power of the
+    // weight below it: two derivatives of the quotient bring in no more than that power of the ratio of weights.
     let n = 4.0 * index.degree.s.max(index.degree.t) as f64;
-    let ratio = (weight.high / weight.low).powi(2);
+    let ratio = (weight.high / weight.low).powi(4);
     let (first, second) = (2.0 * n * n, 4.0 * n * n * (n * n - 1.0) / 3.0);
     let bend = 4.0 * n * n * index.patches[k].radius * ratio;
     Some(4.0 * ratio * e * (second + first * bend / least.sqrt()) / least)

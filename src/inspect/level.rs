@@ -178,7 +178,7 @@ mod tests {
         let degree = Bidegree { s: 2, t: 2 };
         let piece = Piece { poles: &poles, degree, rational: true, error: 1e-15, steps: 1e-15 };
         let forms = Forms::new(&piece);
-        let mut avoids = |quantity, c| forms.avoids(quantity, c, &mut Vec::new()).unwrap();
+        let avoids = |quantity, c| forms.avoids(quantity, c, &mut Vec::new()).unwrap();
         // The other principal curvature runs from 1 / 4.25 to 0 there.
         for (c, wanted) in [(0.8008, true), (0.7992, true), (0.8, false), (0.3, true), (0.1, false)]
         {

@@ -224,7 +224,7 @@ impl Search<'_> {
     fn tried(&mut self, area: Area, depth: u32) -> Option<Area> {
         let slot = (depth / EVERY).min(15) as usize;
         let [tries, wins] = self.tries[slot];
-        if depth % EVERY != 0 || tries >= TRIES * (wins + 1) {
+        if !depth.is_multiple_of(EVERY) || tries >= TRIES * (wins + 1) {
             return None;
         }
         let (area, is_tried) = self.cut_off(area);
