@@ -98,7 +98,7 @@ fn inflections_that_the_original_has_not_vanish_with_every_energy() {
     let shapes = [
         ("aerofoil", aerofoil(61, 1e-4, &mut Random(7)), aerofoil(61, 0.0, &mut Random(7)), 3e-4),
         ("waterline", drawn("waterline", 2e-4), drawn("waterline", 0.0), 6e-4),
-        ("bumper", drawn("bumper", 6e-4), drawn("bumper", 0.0), 1.8e-3),
+        ("bumper", drawn("bumper", 1.2e-3), drawn("bumper", 0.0), 3.6e-3),
     ];
     let mut wrong = Vec::new();
     for (shape, noisy, smooth, deviation) in &shapes {

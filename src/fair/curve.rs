@@ -8,6 +8,8 @@ use super::{Faired, Method};
 use crate::bounds::{Vector, cross, dot, norm, sub};
 use crate::curve::Curve;
 use crate::error::Error;
+use crate::index::IndexedCurve;
+use crate::inspect::turn_count;
 use crate::knots::{Knots, Side};
 
 /// Poles up to which the proof is sharpened by inserted knots.
@@ -290,7 +292,7 @@ type Proof<'a> = dyn Fn(&[Vector]) -> Result<f64, Error> + 'a;
 impl Calm<'_> {
     /// A state with fewer turns than the one of least energy alone, if there is one; whether it converged, and its deviation.
     ///
-    /// The calming energy is the jerk by arc length. Its share is lessened as long as no turns come back.
+    /// The calming energy is the jerk by arc length. Of several shares of it the least energy without more turns is taken.
     fn instead_of(
         &self,
         problem: &mut Problem,
@@ -298,8 +300,12 @@ impl Calm<'_> {
         run: &mut Run,
         proven: &Proof,
     ) -> Result<Option<(State, bool, f64)>, Error> {
-        let turns = Slope::new(self.curve, 1.0);
-        let count = |poles: &[Vector]| turns.turns(poles, self.normal);
+        let sampled = Slope::new(self.curve, 1.0);
+        // Degrees too high for a proof are counted at samples.
+        let count = |poles: &[Vector]| {
+            let shape = IndexedCurve::new(moved(self.curve, poles));
+            turn_count(&shape, self.normal).unwrap_or_else(|_| sampled.turns(poles, self.normal))
+        };
         let before = count(&plain.poles);
         if before == 0 {
             return Ok(None);
@@ -327,13 +333,12 @@ impl Calm<'_> {
                 best.poles.clone_from(&state.poles);
                 best.energies.push(value);
                 result = Some(found);
-            } else if result.is_some() {
-                break;
             }
             let share = first / calm * 10f64.powi(power);
             problem.energy = asked.with(share, &calming);
             let mixed = energy(problem, &state.poles);
             state = State { poles: state.poles, energies: vec![mixed], ..State::new(old, mixed) };
+            problem.radius = self.radius;
             found = problem.in_rounds(&mut state, self.deviation, run, proven)?;
             problem.energy = asked.clone();
             value = energy(problem, &state.poles);

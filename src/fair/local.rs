@@ -79,7 +79,7 @@ impl Problem<'_> {
         let mut poles = state.poles.clone();
         twins.iter().for_each(|&i| poles[i] = goal);
         if twins.len() > 1 || !(self.allowed)(&poles) {
-            return self.advance(state, &poles);
+            return self.advance(state, &poles) > 0.0;
         }
         state.poles = poles;
         state.energies.push(energy);

@@ -6,7 +6,8 @@
 //! ```
 //!
 //! Nothing is taken as constant: lengths are those of the curve as it is, not as it was. The energy is no square of linear forms;
-//! its gradient is exact, and third derivatives by the arc length that the curve has now make its matrix.
+//! its gradient is exact; its matrix is that of Gauss and Newton, which couples the coordinates. It does not see a curve sliding along
+//! itself: a share of the third derivatives by the arc length that the curve has now holds it.
 //!
 //! Reference: Moreton, Séquin, *Functional optimization for fair surface design*, 1992: curves of least variation of curvature.
 
@@ -56,6 +57,35 @@ fn integrand([d1, d2, d3]: [Vector; 3]) -> Option<(f64, [Vector; 3])> {
     let by_1 = add(by_1, scaled(d2, through / q));
     let by_1 = sub(by_1, scaled(d1, 2.0 * through * bend / square));
     Some((value, [by_1, by_2, by_z]))
+}
+
+/// Derivatives of the vector whose square is the integrand, N (C''' - 3 part C'') / |C'|^(5/2), by the three derivatives: row i of
+/// each is that of its component i.
+fn residual_by([d1, d2, d3]: [Vector; 3]) -> Option<[[Vector; 3]; 3]> {
+    let q = dot(d1, d1);
+    if q <= 0.0 || !q.is_finite() {
+        return None;
+    }
+    let scale = 1.0 / (q * q.sqrt().sqrt());
+    let part = dot(d1, d2) / q;
+    let z = sub(d3, scaled(d2, 3.0 * part));
+    let y = dot(d1, z);
+    let across = |x: Vector| sub(x, scaled(d1, dot(d1, x) / q));
+    let (second, whole) = (across(d2), across(z));
+    let part_by_1 = scaled(sub(d2, scaled(d1, 2.0 * part)), 1.0 / q);
+    let mut by = [[[0.0; 3]; 3]; 3];
+    for i in 0..3 {
+        for j in 0..3 {
+            let same = f64::from(u8::from(i == j));
+            let normal = same - d1[i] * d1[j] / q;
+            let turned = 2.0 * y * d1[i] * d1[j] / (q * q) - (same * y + d1[i] * z[j]) / q;
+            let own = turned - 3.0 * second[i] * part_by_1[j] - 2.5 * whole[i] * d1[j] / q;
+            by[0][i][j] = scale * own;
+            by[1][i][j] = scale * (-3.0 * part * normal - 3.0 * second[i] * d1[j] / q);
+            by[2][i][j] = scale * normal;
+        }
+    }
+    Some(by)
 }
 
 impl Place {
@@ -130,6 +160,28 @@ impl Slope {
         gradient
     }
 
+    /// Squares that stand for the energy near these poles (Gauss, Newton), over coordinates: 3 i + k is coordinate k of pole i.
+    pub fn near(&self, poles: &[Vector]) -> Vec<Cell> {
+        let cell = |place: &Place| {
+            let by = residual_by(place.derivatives(poles))?;
+            let n = place.cell.poles.len();
+            let root = (self.weight * place.share).sqrt();
+            let mut rows = vec![0.0; 9 * n];
+            for (i, row) in rows.chunks_exact_mut(3 * n).enumerate() {
+                for a in 0..n {
+                    for j in 0..3 {
+                        row[3 * a + j] = (0..3)
+                            .map(|k| root * by[k][i][j] * place.cell.rows[(k + 1) * n + a])
+                            .sum();
+                    }
+                }
+            }
+            let coordinates = place.cell.poles.iter().flat_map(|&i| [3 * i, 3 * i + 1, 3 * i + 2]);
+            Some(Cell { poles: coordinates.collect(), rows })
+        };
+        self.places.iter().filter(|place| place.share > 0.0).filter_map(cell).collect()
+    }
+
     /// Squares of third derivatives by the arc length that the curve has with these poles.
     pub fn model(&self, poles: &[Vector]) -> Functional {
         let mut cells = Vec::with_capacity(self.places.len());
@@ -186,6 +238,32 @@ mod tests {
                 let gap = (gradient[i][k] - wanted).abs();
                 assert!(gap <= 1e-6 * (1.0 + wanted.abs()), "{i} {k} {} {wanted}", gradient[i][k]);
             }
+        }
+    }
+
+    #[test]
+    fn the_squares_near_a_circle_are_those_of_the_energy() {
+        // Where the energy vanishes they are its second derivative.
+        let half = 0.5f64.sqrt();
+        let poles = [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        let knots = [0., 0., 0., 1., 1., 1.];
+        let curve = Curve::new(&knots, 2, &poles, Some(&[1.0, half, 1.0])).unwrap();
+        let slope = Slope::new(&curve, 1.0);
+        let near = slope.near(&poles);
+        for way in [[0.3, -0.1, 0.2], [-0.7, 0.4, 0.1], [0.2, 0.9, -0.5]] {
+            let step = 1e-4;
+            let mut moved = poles;
+            (0..3).for_each(|i| moved[i] = add(poles[i], scaled(way, step * (i * i) as f64)));
+            let square = |cell: &Cell| -> f64 {
+                let at = |i: usize| (moved[i / 3][i % 3] - poles[i / 3][i % 3]) / step;
+                let rows = cell.rows.chunks_exact(9);
+                rows.map(|row| row.iter().zip(&cell.poles).map(|(x, &i)| x * at(i)).sum::<f64>())
+                    .map(|x| x * x)
+                    .sum()
+            };
+            let (wanted, found) =
+                (slope.value(&moved) / (step * step), near.iter().map(square).sum::<f64>());
+            assert!((wanted - found).abs() < 1e-2 * wanted, "{wanted} {found}");
         }
     }
 

@@ -32,6 +32,9 @@ const BALANCED: usize = 10;
 /// Steps in a row that may gain nothing before the search ends.
 const PATIENCE: usize = 6;
 
+/// Share of the parameters' hold in the matrix of the slope: least, first and most.
+const HELD: [f64; 3] = [1e-6, 1e-1, 1e2];
+
 /// Over-relaxation of the solutions.
 const RELAXED: f64 = 1.6;
 
@@ -63,7 +66,10 @@ pub struct Problem<'a> {
 }
 
 /// A factored matrix with the kept forms: rows, the matrix's solutions for them, and the factored products of both.
+///
+/// Coordinates are solved for apart (`width` 1) or together (3: unknown 3 k + axis), see [`Problem::width`].
 struct Factor {
+    width: usize,
     factor: Envelope,
     rows: Vec<Vec<f64>>,
     solved: Vec<Vec<f64>>,
@@ -72,6 +78,11 @@ struct Factor {
 
 fn product(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// A row over coordinates, applied.
+fn across(row: &[f64], cell: &Cell, by_pole: &[Vector]) -> f64 {
+    row.iter().zip(&cell.poles).map(|(x, &i)| x * by_pole[i / 3][i % 3]).sum()
 }
 
 /// A linear form: unknowns and their factors.
@@ -113,19 +124,41 @@ impl Problem<'_> {
         self.energy.value(poles) + self.distance.value(&differences(poles, old)) + slope
     }
 
-    /// The squares that stand for the slope at these poles.
-    fn model(&self, poles: &[Vector]) -> Functional {
-        self.slope.as_ref().map_or_else(Functional::default, |slope| slope.model(poles))
+    /// Unknown numbers a pole that have equations in common: the slope of the curvature couples the coordinates.
+    fn width(&self) -> usize {
+        if self.slope.is_some() { 3 } else { 1 }
+    }
+
+    /// The squares that stand for the slope at these poles, over coordinates; `held` is the share of what holds the parameters.
+    fn model(&self, poles: &[Vector], held: f64) -> Vec<Cell> {
+        let Some(slope) = &self.slope else { return Vec::new() };
+        let mut cells = slope.near(poles);
+        let root = held.sqrt();
+        for cell in slope.model(poles).0 {
+            cells.extend((0..3).map(|axis| Cell {
+                poles: cell.poles.iter().map(|i| 3 * i + axis).collect(),
+                rows: cell.rows.iter().map(|x| root * x).collect(),
+            }));
+        }
+        cells
     }
 
     /// The equations at the present poles: matrix and right-hand side.
-    fn equations(&self, state: &State) -> Result<(Envelope, Vec<Vector>), Error> {
-        let model = self.model(&state.poles);
+    fn equations(&self, state: &State, held: f64) -> Result<(Envelope, Vec<Vector>), Error> {
+        let model = self.model(&state.poles, held);
         let mut pull = self.energy.gradient(&state.old);
         if let Some(slope) = &self.slope {
             let moved = differences(&state.poles, &state.old);
-            let parts = slope.gradient(&state.poles).into_iter().zip(model.gradient(&moved));
-            pull.iter_mut().zip(parts).for_each(|(x, (a, b))| *x = add(*x, sub(a, b)));
+            let own = slope.gradient(&state.poles);
+            pull.iter_mut().zip(own).for_each(|(x, a)| *x = add(*x, a));
+            for cell in &model {
+                for row in cell.rows.chunks_exact(cell.poles.len()) {
+                    let whole = across(row, cell, &moved);
+                    for (x, &i) in row.iter().zip(&cell.poles) {
+                        pull[i / 3][i % 3] -= x * whole;
+                    }
+                }
+            }
         }
         Ok((self.matrix(&model)?, self.gather(&pull)))
     }
@@ -171,10 +204,12 @@ impl Problem<'_> {
             return Ok(true);
         }
         let tube = self.tube();
-        let mut equations = self.equations(state)?;
-        let stiff: f64 = (0..self.count).map(|k| equations.0.diagonal(k)).sum();
-        let width: f64 = tube.iter().flatten().map(|(_, x)| x * x).sum();
-        let mut penalty = 1e-3 * stiff / width.max(f64::MIN_POSITIVE);
+        let (mut held, width) = (HELD[1], self.width());
+        let mut equations = self.equations(state, held)?;
+        let diagonal = |k| equations.0.diagonal(k) / width as f64;
+        let stiff: f64 = (0..self.count * width).map(diagonal).sum();
+        let squares: f64 = tube.iter().flatten().map(|(_, x)| x * x).sum();
+        let mut penalty = 1e-3 * stiff / squares.max(f64::MIN_POSITIVE);
         let Some(mut factor) = self.factor(&equations.0, &tube, penalty)? else { return Ok(false) };
         let present = self.gather_mean(&differences(&state.poles, &state.old));
         let mut inside: Vec<Vector> = tube.iter().map(|form| applied(form, &present)).collect();
@@ -201,19 +236,24 @@ impl Problem<'_> {
             }
             if k % EVERY == 0 || k == steps {
                 let before = state.last();
-                self.go(state, &motions, reach);
+                let share = self.go(state, &motions, reach);
                 let is_idle = before - state.last() <= LEAST_GAIN * before;
                 idle = if is_idle { idle + 1 } else { 0 };
                 if idle >= PATIENCE {
                     return Ok(true);
                 }
                 if self.slope.is_some() {
-                    equations = self.equations(state)?;
+                    let change = if share > 0.5 { 0.2 } else { 4.0 };
+                    held = (held * change).clamp(HELD[0], HELD[2]);
+                    equations = self.equations(state, held)?;
                 }
             }
             let is_new = k % EVERY == 0 && self.slope.is_some();
             let share = |[a, b]: [f64; 2]| if b > 0.0 { a / b } else { 0.0 };
-            let ratio = (share(primal) / share(dual).max(1e-300)).sqrt();
+            // Where the tube holds nothing back, its penalty does and must go.
+            let is_free = dual[1] == 0.0;
+            let ratio =
+                if is_free { 0.0 } else { (share(primal) / share(dual).max(1e-300)).sqrt() };
             let is_unbalanced =
                 k % BALANCED == 0 && ratio.is_finite() && !(0.4..=2.5).contains(&ratio);
             if is_unbalanced {
@@ -231,8 +271,8 @@ impl Problem<'_> {
         Ok(false)
     }
 
-    /// Goes towards the poles with these motions, shrunk into the tube.
-    fn go(&self, state: &mut State, motions: &[Vector], reach: f64) {
+    /// Goes towards the poles with these motions, shrunk into the tube; gives the share of the way.
+    fn go(&self, state: &mut State, motions: &[Vector], reach: f64) -> f64 {
         let share = if reach > 1.0 { (1.0 - 1e-12) / reach } else { 1.0 };
         let goal: Vec<Vector> = (0..state.old.len())
             .map(|i| match self.unknowns[i] {
@@ -240,11 +280,11 @@ impl Problem<'_> {
                 None => state.old[i],
             })
             .collect();
-        self.advance(state, &goal);
+        self.advance(state, &goal)
     }
 
-    /// Goes from the present poles towards `goal`, to the least energy on the way; nowhere, and false, when it would rise.
-    pub fn advance(&self, state: &mut State, goal: &[Vector]) -> bool {
+    /// Goes from the present poles towards `goal`, to the least energy on the way; gives the share of it, 0 when the energy would rise.
+    pub fn advance(&self, state: &mut State, goal: &[Vector]) -> f64 {
         let way = differences(goal, &state.poles);
         let pairs =
             |a: &[Vector], b: &[Vector]| -> f64 { a.iter().zip(b).map(|(a, b)| dot(*a, *b)).sum() };
@@ -254,12 +294,16 @@ impl Problem<'_> {
         let mut bend = self.energy.value(&way) + self.distance.value(&way);
         if let Some(energy) = &self.slope {
             slope += pairs(&energy.gradient(&state.poles), &way);
-            bend += energy.model(&state.poles).value(&way);
+            let square = |cell: &Cell| -> f64 {
+                let rows = cell.rows.chunks_exact(cell.poles.len());
+                rows.map(|row| across(row, cell, &way)).map(|x| x * x).sum()
+            };
+            bend += energy.near(&state.poles).iter().map(square).sum::<f64>();
         }
         let mut share = if bend > 0.0 { (-slope / bend).clamp(0.0, 1.0) } else { 1.0 };
         for _ in 0..30 {
             if share <= 0.0 || share.is_nan() {
-                return false;
+                return 0.0;
             }
             let at = |(p, d): (&Vector, &Vector)| add(*p, scaled(*d, share));
             let poles: Vec<Vector> = state.poles.iter().zip(&way).map(at).collect();
@@ -268,11 +312,11 @@ impl Problem<'_> {
             if value < state.last() && is_regular && (self.allowed)(&poles) {
                 state.poles = poles;
                 state.energies.push(value);
-                return true;
+                return share;
             }
             share *= 0.5;
         }
-        false
+        0.0
     }
 
     /// The factored matrix with the penalty, and what keeps the kept forms; none when it is not definite.
@@ -282,17 +326,23 @@ impl Problem<'_> {
         tube: &[Form],
         penalty: f64,
     ) -> Result<Option<Factor>, Error> {
+        let width = self.width();
         let mut factor = matrix.copied()?;
         for form in tube {
             for (n, &(i, x)) in form.iter().enumerate() {
-                form[..=n].iter().for_each(|&(j, y)| factor.add(i, j, penalty * x * y));
+                for &(j, y) in &form[..=n] {
+                    for axis in 0..width {
+                        factor.add(width * i + axis, width * j + axis, penalty * x * y);
+                    }
+                }
             }
         }
         factor.add_ridge(RIDGE);
         if !factor.factorise() {
             return Ok(None);
         }
-        let rows: Vec<Vec<f64>> = self.kept.iter().map(|cell| self.row(cell)).collect();
+        let axes = (0..width).flat_map(|axis| self.kept.iter().map(move |cell| (cell, axis)));
+        let rows: Vec<Vec<f64>> = axes.map(|(cell, axis)| self.row(cell, axis)).collect();
         let mut solved = rows.clone();
         solved.iter_mut().for_each(|row| factor.solve(row));
         let mut schur = Envelope::new(vec![0; rows.len()])?;
@@ -304,7 +354,7 @@ impl Problem<'_> {
         if !schur.factorise() {
             return Ok(None);
         }
-        Ok(Some(Factor { factor, rows, solved, schur }))
+        Ok(Some(Factor { width, factor, rows, solved, schur }))
     }
 
     /// The motions for the present targets of the tube; the kept forms of them vanish, at the least cost.
@@ -322,15 +372,19 @@ impl Problem<'_> {
             }
         }
         let mut motions = vec![[0.0; 3]; self.count];
-        for axis in 0..3 {
-            let mut b: Vec<f64> = right.iter().map(|g| g[axis]).collect();
+        let width = factor.width;
+        for first in (0..3).step_by(width) {
+            let mut b: Vec<f64> =
+                right.iter().flat_map(|g| &g[first..first + width]).copied().collect();
             factor.factor.solve(&mut b);
             let mut excess: Vec<f64> = factor.rows.iter().map(|row| product(row, &b)).collect();
             factor.schur.solve(&mut excess);
             for (row, x) in factor.solved.iter().zip(&excess) {
                 b.iter_mut().zip(row).for_each(|(d, r)| *d -= r * x);
             }
-            motions.iter_mut().zip(b).for_each(|(motion, x)| motion[axis] = x);
+            for (motion, x) in motions.iter_mut().zip(b.chunks_exact(width)) {
+                motion[first..first + width].copy_from_slice(x);
+            }
         }
         motions
     }
@@ -351,12 +405,13 @@ impl Problem<'_> {
         self.tubes.iter().map(form).filter(|form| !form.is_empty()).collect()
     }
 
-    /// A row over the poles as one over the unknowns.
-    fn row(&self, cell: &Cell) -> Vec<f64> {
-        let mut row = vec![0.0; self.count];
+    /// A row over the poles as one over the unknown numbers of one axis.
+    fn row(&self, cell: &Cell, axis: usize) -> Vec<f64> {
+        let width = self.width();
+        let mut row = vec![0.0; self.count * width];
         for (x, &i) in cell.rows.iter().zip(&cell.poles) {
             if let Some(k) = self.unknowns[i] {
-                row[k] += x;
+                row[width * k + axis] += x;
             }
         }
         row
@@ -398,31 +453,42 @@ impl Problem<'_> {
         sums
     }
 
-    /// The matrix of energy and distance over the unknowns.
-    fn matrix(&self, model: &Functional) -> Result<Envelope, Error> {
-        let cells = || self.energy.0.iter().chain(&self.distance.0).chain(&model.0);
+    /// The matrix of energy, distance and the model of the slope over the unknown numbers.
+    fn matrix(&self, model: &[Cell]) -> Result<Envelope, Error> {
+        let width = self.width();
+        let cells = || self.energy.0.iter().chain(&self.distance.0);
         let mut first: Vec<usize> = (0..self.count).collect();
-        for cell in cells().chain(&self.tubes) {
-            let unknowns = || cell.poles.iter().filter_map(|&i| self.unknowns[i]);
-            let Some(least) = unknowns().min() else { continue };
-            unknowns().for_each(|k| first[k] = first[k].min(least));
-        }
+        let mut reach = |poles: &mut dyn Iterator<Item = usize>| {
+            let unknowns: Vec<usize> = poles.filter_map(|i| self.unknowns[i]).collect();
+            let Some(&least) = unknowns.iter().min() else { return };
+            unknowns.iter().for_each(|&k| first[k] = first[k].min(least));
+        };
+        cells().chain(&self.tubes).for_each(|cell| reach(&mut cell.poles.iter().copied()));
+        model.iter().for_each(|cell| reach(&mut cell.poles.iter().map(|i| i / 3)));
+        let first = first.iter().flat_map(|k| vec![width * k; width]).collect();
         let mut matrix = Envelope::new(first)?;
         for cell in cells() {
-            let n = cell.poles.len();
-            for a in 0..n {
-                for b in 0..=a {
-                    let (Some(i), Some(j)) =
-                        (self.unknowns[cell.poles[a]], self.unknowns[cell.poles[b]])
-                    else {
-                        continue;
-                    };
-                    let x: f64 = cell.rows.chunks_exact(n).map(|row| row[a] * row[b]).sum();
-                    // Two poles with one unknown meet on its diagonal twice.
-                    matrix.add(i, j, if a != b && i == j { 2.0 * x } else { x });
-                }
+            for axis in 0..width {
+                Self::add_squares(cell, &|i| Some(width * self.unknowns[i]? + axis), &mut matrix);
             }
         }
+        for cell in model {
+            Self::add_squares(cell, &|i| Some(3 * self.unknowns[i / 3]? + i % 3), &mut matrix);
+        }
         Ok(matrix)
+    }
+
+    /// Adds the squares of the rows of a cell, whose entries have these unknown numbers.
+    fn add_squares(cell: &Cell, unknown: &dyn Fn(usize) -> Option<usize>, matrix: &mut Envelope) {
+        let n = cell.poles.len();
+        let places: Vec<Option<usize>> = cell.poles.iter().map(|&i| unknown(i)).collect();
+        for a in 0..n {
+            for b in 0..=a {
+                let (Some(i), Some(j)) = (places[a], places[b]) else { continue };
+                let x: f64 = cell.rows.chunks_exact(n).map(|row| row[a] * row[b]).sum();
+                // Two poles with one unknown meet on its diagonal twice.
+                matrix.add(i, j, if a != b && i == j { 2.0 * x } else { x });
+            }
+        }
     }
 }
