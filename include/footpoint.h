@@ -2778,7 +2778,8 @@ typedef struct fpt_fair_options {
      */
     size_t through_count;
     /**
-     * Curves: `knot_count` knots that FPT_FAIR_KNOT_REMOVAL may fair. NULL: all inner ones.
+     * Curves: `knot_count` knots that FPT_FAIR_KNOT_REMOVAL and FPT_FAIR_LOCAL may fair: of each the pole in the middle of its jump
+     * moves. NULL: all inner ones, with FPT_FAIR_LOCAL all poles.
      */
     const double *knots;
     /**

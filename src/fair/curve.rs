@@ -1,6 +1,6 @@
 //! Fairing of curves.
 
-use super::length::arc_length;
+use super::length::{LengthLimit, arc_length};
 use super::rows::{Cell, Functional, curve_energy, curve_rows, hull_deviation, jumps, refinement};
 use super::slope::Slope;
 use super::solve::{Problem, State, differences};
@@ -43,7 +43,8 @@ pub struct CurveFairing {
     pub fixed: Vec<usize>,
     /// Parameters whose points stay.
     pub through: Vec<f64>,
-    /// Knots to be faired by [`Method::KnotRemoval`]; empty: all inner ones.
+    /// Knots to be faired by [`Method::KnotRemoval`] and [`Method::Local`]: of each the pole in the middle of its jump moves. Empty:
+    /// all inner ones, and with [`Method::Local`] all poles.
     pub knots: Vec<f64>,
     /// Least and greatest arc length allowed, which the curve has already.
     pub length: Option<[f64; 2]>,
@@ -155,13 +156,29 @@ pub(super) fn repeats(knots: &Knots) -> bool {
     (0..=2 * p).all(|i| (t[n - p + i] - t[i] - period).abs() <= 1e-12 * period.abs())
 }
 
+/// Whether each pole may move by the choice of knots.
+fn chosen_poles(curve: &Curve, fairing: &CurveFairing, lines: &[(f64, Cell)]) -> Vec<bool> {
+    let is_free = fairing.method != Method::Local || fairing.knots.is_empty();
+    let mut chosen = vec![is_free; curve.poles().len()];
+    for (_, cell) in lines.iter().filter(|line| fairing.knots.contains(&line.0)) {
+        let middle = (0..cell.poles.len())
+            .max_by(|&a, &b| cell.rows[a].abs().total_cmp(&cell.rows[b].abs()));
+        middle.into_iter().for_each(|a| chosen[cell.poles[a]] = true);
+    }
+    chosen
+}
+
 /// The unknown of each pole, their number, and the linear forms that must vanish.
-fn freedom(curve: &Curve, fairing: &CurveFairing) -> (Vec<Option<usize>>, usize, Vec<Cell>) {
+fn freedom(
+    curve: &Curve,
+    fairing: &CurveFairing,
+    chosen: &[bool],
+) -> (Vec<Option<usize>>, usize, Vec<Cell>) {
     let (count, p) = (curve.poles().len(), curve.degree());
     let weight = |i: usize| curve.weights().map_or(1.0, |w| w[i]);
     let same = |i: usize, j: usize| curve.poles()[i] == curve.poles()[j] && weight(i) == weight(j);
     let wrap = if repeats(curve.knots()) { wrapped(count, p, same) } else { 0 };
-    let mut fixed = vec![false; count];
+    let mut fixed: Vec<bool> = chosen.iter().map(|is_chosen| !is_chosen).collect();
     let mut kept = Vec::new();
     fairing.fixed.iter().for_each(|&i| fixed[i] = true);
     let (start, end) = curve.domain();
@@ -362,9 +379,9 @@ pub fn fair_curve(
     poll: &mut dyn FnMut() -> bool,
 ) -> Result<Faired<Curve>, Error> {
     check(curve, fairing)?;
-    let (unknowns, count, kept) = freedom(curve, fairing);
-    let weights = [0.0, 0.0, fairing.strain, fairing.jerk];
     let lines: Vec<(f64, Cell)> = jumps(curve);
+    let (unknowns, count, kept) = freedom(curve, fairing, &chosen_poles(curve, fairing, &lines));
+    let weights = [0.0, 0.0, fairing.strain, fairing.jerk];
     let energy = match fairing.method {
         Method::KnotRemoval => Functional(lines.iter().map(|line| line.1.clone()).collect()),
         _ => curve_energy(curve, weights, fairing.by_length),
@@ -401,6 +418,7 @@ pub fn fair_curve(
         kept,
         tubes,
         radius,
+        length: fairing.length.map(|range| LengthLimit::new(curve, range)),
         allowed: &fits,
         poll,
     };

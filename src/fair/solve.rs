@@ -15,6 +15,7 @@
 
 use super::LEAST_GAIN;
 use super::envelope::Envelope;
+use super::length::LengthLimit;
 use super::rows::{Cell, Functional, hull_deviation};
 use super::slope::Slope;
 use crate::bounds::{Vector, add, dot, norm, scaled, sub};
@@ -59,6 +60,8 @@ pub struct Problem<'a> {
     pub tubes: Vec<Cell>,
     /// How far a form of the tube may move; of the other methods: a pole.
     pub radius: f64,
+    /// What the arc length may be.
+    pub length: Option<LengthLimit>,
     /// Whether poles are allowed for other reasons.
     pub allowed: &'a dyn Fn(&[Vector]) -> bool,
     /// Asked between steps whether to stop.
@@ -76,8 +79,37 @@ struct Factor {
     schur: Envelope,
 }
 
+/// The arc length, linear in the motions: `gradient . motions + at`, and what it may be.
+struct Length {
+    gradient: Vec<Vector>,
+    at: f64,
+    range: [f64; 2],
+    /// The motions that change it at the least cost.
+    way: Vec<Vector>,
+}
+
+fn pairs(a: &[Vector], b: &[Vector]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| dot(*a, *b)).sum()
+}
+
 fn product(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+impl Length {
+    /// Moves the motions to the nearest ones whose length is in the range.
+    fn hold(&self, motions: &mut [Vector]) {
+        let length = self.at + pairs(&self.gradient, motions);
+        let excess = length - length.clamp(self.range[0], self.range[1]);
+        let slope = pairs(&self.gradient, &self.way);
+        if excess != 0.0 && slope > 0.0 {
+            let share = -excess / slope;
+            motions
+                .iter_mut()
+                .zip(&self.way)
+                .for_each(|(x, way)| *x = add(*x, scaled(*way, share)));
+        }
+    }
 }
 
 /// A row over coordinates, applied.
@@ -211,6 +243,7 @@ impl Problem<'_> {
         let squares: f64 = tube.iter().flatten().map(|(_, x)| x * x).sum();
         let mut penalty = 1e-3 * stiff / squares.max(f64::MIN_POSITIVE);
         let Some(mut factor) = self.factor(&equations.0, &tube, penalty)? else { return Ok(false) };
+        let mut length = self.length(state, &factor, 0);
         let present = self.gather_mean(&differences(&state.poles, &state.old));
         let mut inside: Vec<Vector> = tube.iter().map(|form| applied(form, &present)).collect();
         let mut shift = vec![[0.0; 3]; tube.len()];
@@ -220,7 +253,10 @@ impl Problem<'_> {
                 return Err(Error::Cancelled);
             }
             let targets: Vec<Vector> = differences(&inside, &shift);
-            let motions = self.solution(&factor, &equations.1, (&tube, &targets), penalty);
+            let mut motions = self.solution(&factor, &equations.1, (&tube, &targets), penalty);
+            if let Some(length) = &length {
+                length.hold(&mut motions);
+            }
             let (mut primal, mut dual) = ([0.0f64; 2], [0.0f64; 2]);
             let mut reach = 0.0f64;
             for ((form, z), y) in tube.iter().zip(&mut inside).zip(&mut shift) {
@@ -267,8 +303,24 @@ impl Problem<'_> {
                 };
                 factor = next;
             }
+            if k % EVERY == 0 || is_unbalanced {
+                length = self.length(state, &factor, k / EVERY);
+            }
         }
         Ok(false)
+    }
+
+    /// The arc length about the present poles. It is no linear function: the range is narrower, and less so after each step.
+    fn length(&self, state: &State, factor: &Factor, steps: usize) -> Option<Length> {
+        let limit = self.length.as_ref()?;
+        let (now, gradient) = limit.with_gradient(&state.poles);
+        let moved = differences(&state.poles, &state.old);
+        let at = now - pairs(&gradient, &moved);
+        let [low, high] = limit.range;
+        let margin = 0.2 * (high - low) * 0.7f64.powi(steps.min(60) as i32);
+        let gradient = self.gather(&gradient);
+        let way = self.applied(factor, &gradient);
+        Some(Length { gradient, at, range: [low + margin, high - margin], way })
     }
 
     /// Goes towards the poles with these motions, shrunk into the tube; gives the share of the way.
@@ -286,8 +338,6 @@ impl Problem<'_> {
     /// Goes from the present poles towards `goal`, to the least energy on the way; gives the share of it, 0 when the energy would rise.
     pub fn advance(&self, state: &mut State, goal: &[Vector]) -> f64 {
         let way = differences(goal, &state.poles);
-        let pairs =
-            |a: &[Vector], b: &[Vector]| -> f64 { a.iter().zip(b).map(|(a, b)| dot(*a, *b)).sum() };
         let moved = differences(&state.poles, &state.old);
         let mut slope = pairs(&self.energy.gradient(&state.poles), &way)
             + pairs(&self.distance.gradient(&moved), &way);
@@ -371,6 +421,11 @@ impl Problem<'_> {
                 right[k] = add(right[k], scaled(*target, penalty * x));
             }
         }
+        self.applied(factor, &right)
+    }
+
+    /// The factored equations solved for a right-hand side; the kept forms of the motions vanish, at the least cost.
+    fn applied(&self, factor: &Factor, right: &[Vector]) -> Vec<Vector> {
         let mut motions = vec![[0.0; 3]; self.count];
         let width = factor.width;
         for first in (0..3).step_by(width) {

@@ -277,6 +277,7 @@ pub fn fair_surface(
         kept,
         tubes,
         radius,
+        length: None,
         allowed: &allowed,
         poll,
     };

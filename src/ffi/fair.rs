@@ -61,7 +61,8 @@ pub struct fpt_fair_options {
     pub through: *const f64,
     /// See through.
     pub through_count: usize,
-    /// Curves: `knot_count` knots that FPT_FAIR_KNOT_REMOVAL may fair. NULL: all inner ones.
+    /// Curves: `knot_count` knots that FPT_FAIR_KNOT_REMOVAL and FPT_FAIR_LOCAL may fair: of each the pole in the middle of its jump
+    /// moves. NULL: all inner ones, with FPT_FAIR_LOCAL all poles.
     pub knots: *const f64,
     /// See knots.
     pub knot_count: usize,
