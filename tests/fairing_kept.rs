@@ -64,15 +64,12 @@ fn curves_keep_what_is_asked_with_every_energy() {
             let faired = fair_curve(&curve, &fairing, &mut || false).unwrap();
             assert_near(&curve, &faired, 2e-3);
             let fall = faired.energies[0] / faired.energies.last().unwrap();
-            println!("rational {rational} {name}: energy / {fall:.2}, {:?}", faired.energies);
-            let free = CurveFairing { length: None, ..fairing.clone() };
-            let free = fair_curve(&curve, &free, &mut || false).unwrap();
-            println!(
-                "    free / {:.3} length {:.6}",
-                free.energies[0] / free.energies.last().unwrap(),
-                arc_length(&free.shape, 1e-10) / length
-            );
-            //            assert!(fall > 1.02, "{name} {fall}");
+            // The length holds back what would make the curve longer, and no more than that.
+            let longer = CurveFairing { length: None, ..fairing.clone() };
+            let free = fair_curve(&curve, &longer, &mut || false).unwrap();
+            let most = free.energies[0] / free.energies.last().unwrap();
+            println!("rational {rational} {name}: energy / {fall:.2}, of any length / {most:.2}");
+            assert!(fall > 1.02 && fall > 0.8 * most, "{name} {fall} {most}");
             assert_eq!(curve.poles()[9], faired.shape.poles()[9]);
             for (u, order) in [(0.0, 1), (1.0, 2), (0.45, 0), (0.7, 0)] {
                 let mut d = [[[0.0; 3]; 3]; 2];
