@@ -15,10 +15,10 @@ def knots(count):
 
 
 def section(count=41):
-    """The section of a bumper, points off by up to 0.2 mm a metre, as a cubic spline."""
+    """The section of a bumper, points off by up to 1.5 mm a metre, as a cubic spline."""
     x = np.linspace(0, 1, count)
     y = 0.3 - 0.9 * (x - 0.5) ** 2 - 3 * (x - 0.5) ** 4
-    y[1:-1] += 2e-4 * np.random.default_rng(3).uniform(-1, 1, count - 2)
+    y[1:-1] += 1.5e-3 * np.random.default_rng(3).uniform(-1, 1, count - 2)
     return footpoint.Curve(3, knots(count), np.column_stack([x, y]))
 
 
@@ -35,7 +35,7 @@ def ellipsoid(a, b, c):
     """Half an ellipsoid as a rational biquadratic surface, away from its poles."""
     w = np.sqrt(0.5)
     turn = np.array([[1, 0, 1], [1, 1, w], [0, 1, 1], [-1, 1, w], [-1, 0, 1]])
-    rise = np.array([[1, -1, w], [1, 0, 1], [1, 1, w]])
+    rise = np.array([[w, -w, 1], [1 / w, 0, w], [w, w, 1]])
     poles = np.array([[(a * x * r, b * y * r, c * z) for r, z, _ in rise] for x, y, _ in turn])
     weights = np.array([[p * q for _, _, q in rise] for _, _, p in turn])
     return footpoint.Surface(2, 2, [0, 0, 0, 1, 1, 2, 2, 2], [0, 0, 0, 1, 1, 1], poles, weights)
@@ -55,7 +55,7 @@ def drawing(text):
 
 
 def main(path):
-    wavy, rough, egg = section(), panel(), ellipsoid(3, 2, 1)
+    wavy, rough, egg = section(), panel(), ellipsoid(2, 3, 1)
     smooth = fair.curve(wavy, 8e-4, strain=0.0, slope=1.0).shape
     faired = fair.surface(rough, 2e-3).shape
     bounds = inspect.curvature_range(faired, side=inspect.Side.GREATEST)
