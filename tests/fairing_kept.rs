@@ -196,3 +196,27 @@ fn a_border_that_is_not_kept_opens() {
     let found = meet(false, 0);
     assert!(found.gap.lower > 1e-5, "{found:?}");
 }
+
+#[test]
+fn energies_near_the_least_number_move_nothing_out_of_bounds() {
+    let (curve, [surface, _]) = (noisy_bow(false), noisy_halves(false));
+    for method in [Method::Energy, Method::Local, Method::KnotRemoval] {
+        for weight in [1e-320, 1e-300, 1e-160] {
+            let fairing = CurveFairing { method, strain: weight, ..CurveFairing::new(2e-3) };
+            let faired = fair_curve(&curve, &fairing, &mut || false).unwrap();
+            let fairing = SurfaceFairing { method, plate: weight, ..SurfaceFairing::new(2e-3) };
+            let other = fair_surface(&surface, &fairing, &mut || false).unwrap();
+            for (deviation, energies) in
+                [(faired.deviation, faired.energies), (other.deviation, other.energies)]
+            {
+                assert!(deviation <= 2e-3, "{method:?} {weight} {deviation}");
+                assert!(energies.windows(2).all(|pair| pair[1] < pair[0]), "{energies:?}");
+            }
+            let pairs =
+                [(curve.poles(), faired.shape.poles()), (surface.poles(), other.shape.poles())];
+            for (a, b) in pairs.iter().flat_map(|(a, b)| a.iter().zip(*b)) {
+                assert!(norm(sub(*a, *b)) < 0.1, "{method:?} {weight} {b:?}");
+            }
+        }
+    }
+}

@@ -356,13 +356,15 @@ pub fn hull_deviation(new: &[Vector], old: &[Vector]) -> f64 {
     let length = |a: &Vector, b: &Vector| {
         let d = sub(*a, *b);
         let size = d.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-        if size == 0.0 {
+        if d == [0.0; 3] {
             0.0
         } else {
             size * dot(scaled(d, 1.0 / size), scaled(d, 1.0 / size)).sqrt()
         }
     };
-    let most = new.iter().zip(old).map(|(a, b)| length(a, b)).fold(0.0, f64::max);
+    // What is no number may be anywhere.
+    let greater = |m: f64, x: f64| if x.is_nan() { f64::INFINITY } else { m.max(x) };
+    let most = new.iter().zip(old).map(|(a, b)| length(a, b)).fold(0.0, greater);
     most * (1.0 + 16.0 * HALF_ULP)
 }
 
