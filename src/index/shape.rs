@@ -120,6 +120,7 @@ impl IndexedCurve {
             if !self.general {
                 index.recognise();
             }
+            index.measure_reach(poll)?;
             Ok(index)
         })
     }
