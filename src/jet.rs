@@ -161,9 +161,14 @@ pub fn lanes(poles: &[f64], rational: bool) -> impl Iterator<Item = Lane> + '_ {
     (0..count).map(move |k| [poles[k], poles[count + k], poles[2 * count + k], weight(k)])
 }
 
+/// A homogeneous pole as a point.
+pub fn place([x, y, z, w]: Lane) -> Vector {
+    [x / w, y / w, z / w]
+}
+
 /// Distance of a homogeneous pole from a point.
-pub fn pole_distance([x, y, z, w]: &Lane, q: Vector) -> f64 {
-    norm(sub([x / w, y / w, z / w], q))
+pub fn pole_distance(pole: &Lane, q: Vector) -> f64 {
+    norm(sub(place(*pole), q))
 }
 
 /// Degrees whose loops have fixed lengths.

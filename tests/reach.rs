@@ -47,11 +47,17 @@ fn place(shape: &IndexedSurface, u: f64, v: f64) -> Place {
     }
 }
 
-/// Checks `direction.(x - f) <= bound |x - f|^2`; `rounding`: of the points.
-fn check(name: &str, direction: Vector, from: Vector, to: Vector, bound: f64, rounding: f64) {
+/// Checks `direction.(x - f) <= bound |x - f|^2`; `rounding`: of the points, and of directions by `kink`.
+fn check(
+    name: &str,
+    direction: Vector,
+    [from, to]: [Vector; 2],
+    bound: f64,
+    [rounding, kink]: [f64; 2],
+) {
     let e = sub(to, from);
     let (rise, square) = (dot(direction, e), dot(e, e));
-    let rounding = rounding + 1e-13 * norm(e);
+    let rounding = rounding + (1e-13 + kink) * norm(e);
     let is_held = bound == f64::INFINITY || rise <= bound * square + rounding;
     assert!(is_held, "{name}: {rise} > {bound} * {square} from {from:?}");
 }
@@ -62,6 +68,7 @@ fn look_at(case: &Case, shape: &IndexedSurface, random: &mut Random) -> [usize; 
     let rounding = 1e-14 * (1.0 + case.magnitude / case.diagonal);
     let index = shape.index(&mut || false).unwrap();
     let Some(reach) = &index.reach else { return [0, 0] };
+    let rounding = rounding + reach.gap;
     let [u0, u1, v0, v1] = shape.surface().domain();
     let mut finite = 0;
     for n in 0..PLACES {
@@ -88,7 +95,8 @@ fn look_at(case: &Case, shape: &IndexedSurface, random: &mut Random) -> [usize; 
             continue;
         }
         let rim = side.map(|side| {
-            assert!(reach.sides(k, at)[side], "{name}: side {side} at {u} {v}");
+            let is_side = reach.sides(k, at)[side] || reach.rim(k, at, side) == f64::INFINITY;
+            assert!(is_side, "{name}: side {side} at {u} {v}");
             (here.outward[side], reach.rim(k, at, side))
         });
         finite += usize::from(bounds[0].min(bounds[1]) < f64::INFINITY);
@@ -102,10 +110,11 @@ fn look_at(case: &Case, shape: &IndexedSurface, random: &mut Random) -> [usize; 
             };
             let there = shape.surface().evaluate(mix(c, u0, u1), mix(d, v0, v1));
             let there = index.frame.enter(there);
-            check(name, here.normal, here.point, there, bounds[0], rounding);
-            check(name, scaled(here.normal, -1.0), here.point, there, bounds[1], rounding);
+            let (way, rounding) = ([here.point, there], [rounding, reach.kink]);
+            check(name, here.normal, way, bounds[0], rounding);
+            check(name, scaled(here.normal, -1.0), way, bounds[1], rounding);
             if let Some((outward, bound)) = rim {
-                check(name, outward, here.point, there, bound, rounding);
+                check(name, outward, way, bound, rounding);
             }
         }
     }
@@ -171,13 +180,12 @@ fn look_along(case: &Case, shape: &IndexedCurve, random: &mut Random) -> [usize;
             let across = scaled(rest, 1.0 / norm(rest));
             if norm(rest) > rounding {
                 let bound = reach.asked(k, at, tangent, across, 0.0);
-                let kink = (reach.kink * norm(e)).min(norm(e));
-                check(name, across, point, there, bound, rounding + kink);
+                check(name, across, [point, there], bound, [rounding, reach.kink]);
                 finite += usize::from(m == 0 && bound < f64::INFINITY);
             }
             if let Some((side, bound)) = end {
                 let outward = scaled(tangent, if side == 0 { -1.0 } else { 1.0 });
-                check(name, outward, point, there, bound, rounding);
+                check(name, outward, [point, there], bound, [rounding, 0.0]);
             }
         }
     }

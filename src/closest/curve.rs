@@ -22,7 +22,8 @@ use crate::error::Error;
 use crate::index::{
     CurveIndex, CurveReach, IndexedCurve, position_error, position_steps, product_steps,
 };
-use crate::refine::{Trace, foot_on_curve};
+use crate::jet::place;
+use crate::refine::{Method, Trace, foot_on_curve};
 
 /// A tangent break smaller than this angle (radians) is rounding of the poles, not a crease.
 pub const LEAST_CREASE: f64 = 1e-6;
@@ -163,6 +164,8 @@ impl IndexedCurve {
         }
         if let Some(u) = hint {
             search.start_at(u, &mut proof);
+        } else if !traced {
+            search.start_near(&mut proof);
         }
         search.walk(workspace, &mut proof);
         search.polish(&mut proof);
@@ -338,6 +341,33 @@ impl CurveSearch<'_> {
             .min(self.index.segments.len() - 1);
         let Some(range) = self.local_range(k) else { return };
         self.iterate_from(k, self.index.segments[k].u.local(u), range, proof);
+    }
+
+    /// Begins at a place that is likely near, where a foot may settle the search.
+    fn start_near(&self, proof: &mut Proof) {
+        let Some(reach) = self.reach else { return };
+        if self.options.domain.is_some() || self.options.method != Method::Auto {
+            return;
+        }
+        let Some((k, start)) =
+            reach.start(self.query, self.index.grid.level).or_else(|| self.guess())
+        else {
+            return;
+        };
+        self.iterate_from(k, start, [0.0, 1.0], proof);
+        if proof.settled.is_none() {
+            self.polish(proof);
+        }
+    }
+
+    /// The place on the chord of a near segment.
+    fn guess(&self) -> Option<(usize, f64)> {
+        let k = self.index.tree.glance(self.query)?;
+        let (lanes, q) = (self.index.net(k).lanes, sub(self.query, self.index.segments[k].center));
+        let [first, last] = [lanes[0], lanes[lanes.len() - 1]].map(place);
+        let chord = sub(last, first);
+        let share = dot(sub(q, first), chord) / dot(chord, chord);
+        Some((k, if share.is_nan() { 0.5 } else { share.clamp(0.0, 1.0) }))
     }
 
     fn iterate_from(&self, k: usize, start: f64, range: [f64; 2], proof: &mut Proof) {

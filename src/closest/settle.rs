@@ -31,7 +31,7 @@ pub fn settle(
 ///
 /// With `q - f = a N + b o + e` (o the outward conormal, where the place is on a side of the surface, b >= 0):
 /// `|x - q|^2 >= |q - f|^2 + r^2 room - 2 |e| r` for `r = |x - f|` and `room = 1 - 2 (|a| K + b K_o)`, so the square is less
-/// than that of the foot by `|e|^2 / room` at most.
+/// than that of the foot by `|e|^2 / room` at most. A kink adds what it is worth for both parts to `|e|`, and so does a gap.
 fn bound(
     reach: &Reach,
     Site { piece: k, at }: Site,
@@ -85,8 +85,10 @@ fn bound(
     if room.is_nan() || room < LEAST_ROOM {
         return None;
     }
+    let lost = lost.sqrt() + 2.0 * reach.kink * d + reach.gap;
+    let less = lost * lost / room + 4.0 * reach.gap * d;
     let square = (d - position).max(0.0) * (1.0 - 8.0 * HALF_ULP);
-    let bound = (square * square - lost / room).max(0.0).sqrt() * (1.0 - 4.0 * HALF_ULP);
+    let bound = (square * square - less).max(0.0).sqrt() * (1.0 - 4.0 * HALF_ULP);
     // Not where the tangents vanish or agree.
     lost.is_finite().then_some(bound)
 }

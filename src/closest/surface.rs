@@ -15,9 +15,10 @@ use super::{
     flag, grained, is_bad, is_coarse, mark_inversion, rounding_floor, search_floor, tree_limit,
     tree_slack, ulp,
 };
-use crate::bounds::{HALF_ULP, Vector, norm, sub};
+use crate::bounds::{HALF_ULP, Vector, add, dot, norm, scaled, sub};
 use crate::error::Error;
 use crate::index::{IndexedSurface, Reach, Span, SurfaceIndex, position_error, position_steps};
+use crate::jet::place;
 use crate::refine::{Method, Trace, foot_on_surface};
 
 /// Boxes that one patch may take before the others have had their turn: a difficult patch that does not even
@@ -176,6 +177,8 @@ impl IndexedSurface {
         }
         if let Some(at) = hint {
             search.start_at(at, &mut proof);
+        } else if !traced {
+            search.start_near(&mut proof);
         }
         search.walk(workspace, &mut proof);
         search.polish(&mut proof);
@@ -306,6 +309,39 @@ impl SurfaceSearch<'_> {
             self.options.method,
             proof,
         );
+    }
+
+    /// Begins at a place that is likely near, where a foot may settle the search.
+    fn start_near(&self, proof: &mut Proof) {
+        let Some(reach) = self.reach else { return };
+        if self.options.domain.is_some() || self.options.method != Method::Auto {
+            return;
+        }
+        let level = self.index.grid.level;
+        let Some((k, start)) = reach.start(self.query, level).or_else(|| self.guess()) else {
+            return;
+        };
+        self.iterate_from(k, start, [0.0, 1.0, 0.0, 1.0], Method::Auto, proof);
+        if proof.settled.is_none() {
+            self.cross(proof);
+        }
+    }
+
+    /// The place on the plane through the corners of a near patch.
+    fn guess(&self) -> Option<(usize, [f64; 2])> {
+        let k = self.index.tree.glance(self.query)?;
+        let (lanes, columns) = (self.index.net(k).lanes, self.index.degree.t + 1);
+        let q = sub(self.query, self.index.patches[k].center);
+        let corners = [0, columns - 1, lanes.len() - columns, lanes.len() - 1];
+        let [a, b, c, d] = corners.map(|at| place(lanes[at]));
+        // Twice the sides of the parallelogram, and four times the vector from its middle.
+        let (s, t) = (sub(add(c, d), add(a, b)), sub(add(b, d), add(a, c)));
+        let from = sub(scaled(q, 4.0), add(add(a, b), add(c, d)));
+        let (e, f, g) = (dot(s, s), dot(s, t), dot(t, t));
+        let (x, y) = (dot(from, s), dot(from, t));
+        let area = 2.0 * (e * g - f * f);
+        let share = |x: f64| if x.is_nan() { 0.5 } else { (0.5 + x / area).clamp(0.0, 1.0) };
+        Some((k, [share(x * g - y * f), share(y * e - x * f)]))
     }
 
     /// The search; when the budget runs out, the foot is looked for by plain iterations from many starts, and if that

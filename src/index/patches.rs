@@ -100,9 +100,14 @@ impl SurfaceIndex {
     pub fn measure_reach(&mut self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error> {
         let (cells, raster) = std::mem::take(&mut self.cells);
         if self.analytic.is_none() {
-            self.reach = Some(Reach::new(&cells, &self.patches, raster, poll)?);
+            self.reach = Some(Reach::new(&cells, self, raster, poll)?);
         }
         Ok(())
+    }
+
+    /// Whether the numbers of all patches are there.
+    pub fn is_whole(&self) -> bool {
+        matches!(self.numbers, Store::Whole(_))
     }
 
     /// Patch `k`'s poles.

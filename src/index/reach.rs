@@ -1,4 +1,4 @@
-//! How far from a surface its normals may be followed before another part of it can be as near.
+//! How far from a surface its normals, from a curve vectors across, may be followed before another part of it can be as near.
 //!
 //! For a place f with unit normal N the ball through f around f + a N holds no other point x of the surface when
 //!
@@ -14,24 +14,31 @@
 //!   parameters, of the second derivatives along N and of the first ones;
 //! - x elsewhere: from boxes around cells and groups of cells, and the cone of the normals.
 //!
-//! For f on a side of the surface the same is bounded for its outward conormal. What lies across a C0 line or a seam is at
-//! distance zero of what is beside it: there K is infinite, and the search has to do without. `docs/rounding.md`, section
-//! 21, has the proof.
+//! For f on a side of the surface the same is bounded for its outward conormal. What lies across a crease is at distance zero of
+//! what is beside it: there K is infinite, and the search has to do without. Lines and seams where the surface is smooth but for
+//! rounding are none (`joints`). For a curve, vectors across take the place of the normal (`curve`). `docs/rounding.md`, section 21,
+//! has the proof.
 
 mod arc;
 mod cell;
 mod curve;
 mod field;
 mod groups;
+mod joints;
+mod middles;
 mod oriented;
 mod raster;
 
-use super::patch::Patch;
+use super::patches::SurfaceIndex;
 use super::piece::reserved;
+use crate::bounds::Vector;
 use crate::error::Error;
+use crate::simd::Level;
 pub use cell::{Cell, push_cells};
 pub use curve::CurveReach;
-use field::Field;
+use field::{Field, STRAIGHT, WIDEST};
+use joints::Joints;
+use middles::Middles;
 pub use raster::Raster;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -52,23 +59,34 @@ pub struct Reach {
     bends: Vec<[f32; 2]>,
     /// Of the cells along the sides of the surface: for their outward conormals.
     rims: [Vec<f32>; 4],
+    middles: Middles,
+    /// Whether the surface goes on smoothly beyond its sides in u, in v.
+    seamless: [bool; 2],
+    /// What is allowed for where derivatives or sides are one but for rounding: for all x, `N.(x - f)` is at most
+    /// `K |x - f|^2 + kink |x - f| + gap`.
+    pub kink: f64,
+    /// See `kink`.
+    pub gap: f64,
 }
+
 impl Reach {
-    /// From the cells of all patches, in their order; `poll` is asked now and then whether to stop. All cores work on many
+    /// From the cells of all patches of an index, in their order; `poll` is asked now and then whether to stop. All cores work on many
     /// cells; the bits do not depend on them.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`], [`Error::Cancelled`].
     pub fn new(
         cells: &[Cell],
-        patches: &[Patch],
+        index: &SurfaceIndex,
         raster: Raster,
         poll: &mut dyn FnMut() -> bool,
     ) -> Result<Self, Error> {
-        let field = Field::new(cells, patches, &raster)?;
+        let joints = Joints::new(index)?;
+        let field = Field::new(cells, &raster, &joints)?;
         let mut bends = reserved(cells.len())?;
         bends.resize(cells.len(), [f32::INFINITY; 2]);
         let columns = field.size[1];
+        let middles = Middles::new(field.middles())?;
         let mut tiles = reserved(cells.len().div_ceil(TILE))?;
         tiles.extend(bends.chunks_mut(TILE).map(|tile| Mutex::new(Some(tile))));
         let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
@@ -107,11 +125,17 @@ impl Reach {
             for n in 0..size[1 - k] {
                 let mut place = [n; 2];
                 place[k] = if side % 2 == 0 { 0 } else { size[k] - 1 };
-                list.push(((field.rim(place, side) * MARGIN) as f32).next_up());
+                // Beyond a seam that is none there is no side.
+                let bound =
+                    if joints.smooth[k][0] { f64::INFINITY } else { field.rim(place, side) };
+                list.push(((bound * MARGIN) as f32).next_up());
             }
         }
         let columns = raster.starts[1].len() - 1;
-        Ok(Self { raster, columns, bends, rims })
+        // So many lines there may be in a block, and a derivative may be twice the mean; see `Field::near`.
+        let kink = joints.kink * 2.0 * (2 * WIDEST) as f64 / STRAIGHT;
+        let seamless = joints.smooth.each_ref().map(|list| list[0]);
+        Ok(Self { raster, columns, bends, rims, middles, seamless, kink, gap: 4.0 * joints.gap })
     }
 
     /// The row and column of a patch.
@@ -127,14 +151,14 @@ impl Reach {
         self.bends[i * width + j].map(f64::from)
     }
 
-    /// The sides of the surface (as in `side`) on which a place of patch `k` lies.
+    /// The sides of the surface (as in `side`) on which a place of patch `k` lies, and beyond which it does not go on.
     pub fn sides(&self, k: usize, at: [f64; 2]) -> [bool; 4] {
         let patch = self.patch(k);
         let last = self.raster.starts.each_ref().map(|list| list.len() - 2);
         [0, 1, 2, 3].map(|side| {
             let d = side / 2;
             let end = if side % 2 == 0 { 0 } else { last[d] };
-            patch[d] == end && at[d] == (side % 2) as f64
+            !self.seamless[d] && patch[d] == end && at[d] == (side % 2) as f64
         })
     }
 
@@ -144,9 +168,19 @@ impl Reach {
         f64::from(self.rims[side][cell[1 - side / 2]])
     }
 
+    /// A place near a query: a patch and local parameters. `None` where there are too many cells to look at.
+    pub fn start(&self, query: Vector, level: Level) -> Option<(usize, [f64; 2])> {
+        let (near, [s, t]) = self.middles.nearest(query, level)?;
+        let width = self.raster.starts[1][self.columns] as usize;
+        let (row, s) = self.raster.place(0, near / width, s);
+        let (column, t) = self.raster.place(1, near % width, t);
+        Some((row * self.columns + column, [s, t]))
+    }
+
     /// Bytes held.
     pub fn memory(&self) -> usize {
         self.raster.memory()
+            + self.middles.memory()
             + self.bends.capacity() * size_of::<[f32; 2]>()
             + self.rims.iter().map(|list| list.capacity() * size_of::<f32>()).sum::<usize>()
     }

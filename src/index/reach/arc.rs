@@ -1,6 +1,7 @@
 //! A cell of a segment: where it lies, its tangent, its curvature vector.
 
 use super::MARGIN;
+use super::middles::Middle;
 use super::oriented::Oriented;
 use crate::bezier::{Bidegree, cut, derivative};
 use crate::bounds::{Vector, add, cross, dot, norm, scaled, sub};
@@ -17,6 +18,14 @@ pub struct Arc {
     pub tips: [f64; 2],
 }
 
+impl Arc {
+    /// Where to begin in the cell.
+    pub fn middle(&self) -> Middle {
+        let step = self.shape.map_or([0.0; 3], |bow| scaled(bow.axes[0], 1.0 / bow.length));
+        Middle { center: self.bounds.center, steps: [step, [0.0; 3]] }
+    }
+}
+
 /// The shape of a cell.
 #[derive(Clone, Copy, Debug)]
 pub struct Bow {
@@ -27,6 +36,8 @@ pub struct Bow {
     /// The curvature vector in the middle, and how far others may be off.
     pub bend: Vector,
     pub off: f64,
+    /// About its length.
+    pub length: f64,
 }
 
 /// Cells into which a segment (`poles`: component by component) is cut, so that tangents turn by about `aim` in each, and
@@ -123,7 +134,7 @@ fn bow(poles: &[f64], p: usize, rational: bool, error: f64) -> Option<Bow> {
     let bent = norm(aside) > 1e-6 * norm(x);
     let across = floats(unit(if bent { aside } else { cross(along, least_axis(along)) })?)?;
     let axes = [along, across, cross(along, across)];
-    off.is_finite().then_some(Bow { axes, cone, bend, off })
+    off.is_finite().then_some(Bow { axes, cone, bend, off, length: 2.0 * speed / (least + most) })
 }
 
 /// The unit coordinate vector that is most across.

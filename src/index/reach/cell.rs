@@ -13,12 +13,42 @@ pub struct Bend {
     pub along: [f64; 2],
     pub size: f64,
 }
+
+impl Bend {
+    fn shrunk(self, by: f64) -> Self {
+        let [low, high] = self.along.map(|x| x / by);
+        let slack = 1e-12 * self.size / by;
+        Self { along: [low - slack, high + slack], size: self.size / by * MARGIN }
+    }
+}
+
 /// What is kept of a cell until all are there: a box around it, and its shape.
 #[derive(Clone, Copy, Debug)]
 pub struct Cell {
     pub bounds: Oriented,
     /// `None` where the tangents say nothing.
     pub shape: Option<Shape>,
+}
+
+impl Cell {
+    /// The same cell with its parameters stretched.
+    pub fn stretched(&self, by: [f64; 2]) -> Self {
+        if by == [1.0; 2] {
+            return *self;
+        }
+        let shape = self.shape.map(|shape| {
+            let [uu, uv, vv] = shape.bends;
+            let [a, b] = by;
+            Shape {
+                tangents: [0, 1].map(|k| scaled(shape.tangents[k], 1.0 / by[k])),
+                off: [0, 1].map(|k| shape.off[k] / by[k] * MARGIN),
+                bends: [uu.shrunk(a * a), uv.shrunk(a * b), vv.shrunk(b * b)],
+                width: [0, 1].map(|k| shape.width[k] * by[k] * MARGIN),
+                ..shape
+            }
+        });
+        Self { shape, ..*self }
+    }
 }
 
 /// The shape of a cell.
@@ -39,6 +69,15 @@ pub struct Shape {
 }
 
 impl Shape {
+    /// By which vectors to multiply a vector to get how far it leads along each parameter, in widths of the cell.
+    pub fn steps(&self) -> [Vector; 2] {
+        let [a, b] = self.tangents;
+        [(a, b, 0), (b, a, 1)].map(|(along, other, k)| {
+            let rest = sub(along, scaled(other, dot(along, other) / dot(other, other)));
+            scaled(rest, 1.0 / (dot(rest, rest) * self.width[k]))
+        })
+    }
+
     /// The outward conormal of a side, for the tangents in the middle, and the derivative across along it.
     pub fn conormal(&self, side: usize) -> (Vector, f64) {
         let (across, along) = (self.tangents[side / 2], self.tangents[1 - side / 2]);

@@ -12,10 +12,12 @@
 use super::MARGIN;
 use super::arc::{Arc, Bow, parts, push_arcs};
 use super::groups::{Groups, View};
+use super::middles::Middles;
 use crate::bounds::{Vector, add, cross, dot, norm, scaled, sub};
 use crate::error::Error;
 use crate::index::piece::{position_error, position_steps, reserved};
 use crate::index::segments::CurveIndex;
+use crate::simd::Level;
 
 /// Turn of the tangent in a cell that is aimed at, and the most cells, unless there are more segments.
 const AIM: f64 = 0.1;
@@ -55,6 +57,7 @@ pub struct CurveReach {
     pub kink: f64,
     /// See `kink`.
     pub gap: f64,
+    middles: Middles,
 }
 
 impl CurveReach {
@@ -99,6 +102,7 @@ impl CurveReach {
             }
             broken[starts[k] as usize] = !is_one;
         }
+        let middles = Middles::new(arcs.iter().map(Arc::middle))?;
         let line = Line { arcs, broken, groups };
         let mut cells = reserved(sum)?;
         for k in 0..sum {
@@ -110,7 +114,8 @@ impl CurveReach {
         let ends = [0, 1].map(|side| line.end(side));
         // So many joins there may be in what is close.
         let joins = CLOSE.min(count + 1) as f64;
-        Ok(Self { starts, cells, ends, kink: kink * joins / STRAIGHT, gap: gap * joins })
+        let (kink, gap) = (kink * joins / STRAIGHT, gap * joins);
+        Ok(Self { starts, cells, ends, kink, gap, middles })
     }
 
     /// An upper bound of K(n) |n| at a place of segment `k` with the unit tangent `tangent`, for a vector n across that may be
@@ -148,9 +153,19 @@ impl CurveReach {
         }
     }
 
+    /// A place near a query: a segment and a local parameter. `None` where there are too many cells to look at.
+    pub fn start(&self, query: Vector, level: Level) -> Option<(usize, f64)> {
+        let (near, [at, _]) = self.middles.nearest(query, level)?;
+        let k = self.starts.partition_point(|&first| first as usize <= near) - 1;
+        let [first, next] = [0, 1].map(|n| self.starts[k + n] as usize);
+        Some((k, ((near - first) as f64 + at) / (next - first) as f64))
+    }
+
     /// Bytes held.
     pub fn memory(&self) -> usize {
-        self.starts.capacity() * size_of::<u32>() + self.cells.capacity() * size_of::<Kept>()
+        self.middles.memory()
+            + self.starts.capacity() * size_of::<u32>()
+            + self.cells.capacity() * size_of::<Kept>()
     }
 }
 

@@ -3,17 +3,23 @@
 use super::MARGIN;
 use super::cell::{Cell, Shape, angle_factor, relative};
 use super::groups::{Groups, View};
+use super::joints::Joints;
+use super::middles::Middle;
 use super::raster::Raster;
 use crate::bounds::{Vector, add, norm, scaled, sub};
 use crate::error::Error;
-use crate::index::patch::Patch;
 use crate::index::piece::reserved;
 
 /// Cells to each side that count as near, and most of them where cells are long and thin.
 const NEAR: usize = 2;
-const WIDEST: usize = 12;
+pub const WIDEST: usize = 12;
+/// Least of `|x - f|`, relative to what the tangents say, up to which cells count as near where there are kinks.
+pub const STRAIGHT: f64 = 0.25;
 /// Bounds less than this are of no use: with it, queries are settled from five diagonals away.
 const LEAST: f64 = 0.1;
+
+/// Rows and columns from one to another, first and last; beyond a seam that is none they are counted on.
+type Block = [[isize; 2]; 2];
 
 /// The cells of a surface in rows and columns.
 pub struct Field {
@@ -22,47 +28,66 @@ pub struct Field {
     /// Of each row, of each column: how many of the next ones are C1 with it and each other, and of those before.
     smooth: [Vec<[usize; 2]>; 2],
     groups: Groups,
+    /// See [`STRAIGHT`].
+    straight: f64,
 }
 
 impl Field {
-    pub fn new(cells: &[Cell], patches: &[Patch], raster: &Raster) -> Result<Self, Error> {
+    pub fn new(cells: &[Cell], raster: &Raster, joints: &Joints) -> Result<Self, Error> {
         let size = raster.size();
         let [rows, columns] = raster.starts.each_ref().map(|list| list.len() - 1);
-        let mut ordered = reserved(cells.len())?;
+        let mut ordered: Vec<Cell> = reserved(cells.len())?;
         for a in 0..rows {
             let first = raster.starts[0][a] as usize;
             for i in 0..raster.split([a, 0])[0] {
                 for b in 0..columns {
                     let [up, across] = raster.split([a, b]);
                     let start = first * size[1] + up * raster.starts[1][b] as usize;
-                    ordered.extend_from_slice(&cells[start + i * across..start + (i + 1) * across]);
+                    let stretch = [joints.stretch[0][a], joints.stretch[1][b]];
+                    let list = &cells[start + i * across..start + (i + 1) * across];
+                    ordered.extend(list.iter().map(|cell| cell.stretched(stretch)));
                 }
             }
         }
-        // Across the sides of a patch that are no borders the surface is C1.
         let smooth = [0, 1].map(|k| {
-            let stride = [columns, 1][k];
-            let mut broken = vec![false; size[k] + 1];
-            for (patch, &line) in raster.starts[k].iter().enumerate() {
-                let at_end = line as usize == size[k];
-                broken[line as usize] = at_end || patches[patch * stride].border[2 * k];
+            let (n, mut broken) = (size[k], vec![false; size[k] + 1]);
+            for (&line, smooth) in raster.starts[k].iter().zip(&joints.smooth[k]) {
+                broken[line as usize] = !smooth;
             }
+            let most = WIDEST.min(n - 1);
             let reach = |at: usize| {
-                let before = (0..WIDEST).take_while(|n| !broken[at - n]).count();
-                let after = (0..WIDEST).take_while(|n| !broken[at + 1 + n]).count();
+                // Line n is line 0, and beyond it only where both are smooth.
+                let before = (0..most).take_while(|m| !broken[(at + n - m) % n]).count();
+                let after = (0..most).take_while(|m| !broken[(at + m) % n + 1]).count();
                 [before, after]
             };
-            (0..size[k]).map(reach).collect()
+            (0..n).map(reach).collect()
         });
         let mut boxes = reserved(ordered.len())?;
         boxes.extend(ordered.iter().map(|cell: &Cell| cell.bounds));
         let groups = Groups::new(size, boxes)?;
-        Ok(Self { size, cells: ordered, smooth, groups })
+        let straight = if joints.kink > 0.0 { STRAIGHT } else { 0.0 };
+        Ok(Self { size, cells: ordered, smooth, groups, straight })
+    }
+
+    /// A cell, counted on beyond a seam.
+    fn cell(&self, place: [isize; 2]) -> &Cell {
+        let [i, j] = [0, 1].map(|k| place[k].rem_euclid(self.size[k] as isize) as usize);
+        &self.cells[i * self.size[1] + j]
+    }
+
+    /// Where to begin in each cell.
+    pub fn middles(&self) -> impl ExactSizeIterator<Item = Middle> + '_ {
+        self.cells.iter().map(|cell| {
+            let steps = cell.shape.as_ref().map_or_else(Default::default, Shape::steps);
+            Middle { center: cell.bounds.center, steps }
+        })
     }
 
     /// The bounds of a cell: for queries on the side of its normal, and on the other.
     pub fn bend(&self, place: [usize; 2]) -> [f64; 2] {
-        let cell = &self.cells[place[0] * self.size[1] + place[1]];
+        let place = place.map(|x| x as isize);
+        let cell = self.cell(place);
         let Some(shape) = &cell.shape else { return [f64::INFINITY; 2] };
         let block = self.block(place, cell);
         let view = View {
@@ -74,7 +99,7 @@ impl Field {
         let mut bend = [LEAST; 2];
         for i in block[0][0]..=block[0][1] {
             for j in block[1][0]..=block[1][1] {
-                let other = &self.cells[i * self.size[1] + j];
+                let other = self.cell([i, j]);
                 let far = view.asked(&other.bounds, bend[0].min(bend[1]));
                 if far[0] <= bend[0] && far[1] <= bend[1] {
                     continue;
@@ -84,14 +109,15 @@ impl Field {
             }
         }
         if bend[0] < f64::INFINITY || bend[1] < f64::INFINITY {
-            self.groups.far(&[view], covered(block), &mut bend);
+            self.groups.far(&[view], self.covered(block), &mut bend);
         }
         bend
     }
 
     /// The bound for the outward conormal of a side in place of the normal, for places on that side of a cell.
     pub fn rim(&self, place: [usize; 2], side: usize) -> f64 {
-        let cell = &self.cells[place[0] * self.size[1] + place[1]];
+        let place = place.map(|x| x as isize);
+        let cell = self.cell(place);
         let Some(shape) = &cell.shape else { return f64::INFINITY };
         let (axis, speed) = shape.conormal(side);
         let k = side / 2;
@@ -105,7 +131,7 @@ impl Field {
         let mut bend = LEAST;
         for i in block[0][0]..=block[0][1] {
             for j in block[1][0]..=block[1][1] {
-                let other = &self.cells[i * self.size[1] + j];
+                let other = self.cell([i, j]);
                 let far = view.asked(&other.bounds, bend)[0];
                 if far <= bend {
                     continue;
@@ -120,7 +146,7 @@ impl Field {
         }
         let mut bend = [bend, f64::INFINITY];
         if bend[0] < f64::INFINITY {
-            self.groups.far(&[view], covered(block), &mut bend);
+            self.groups.far(&[view], self.covered(block), &mut bend);
         }
         bend[0]
     }
@@ -132,8 +158,8 @@ impl Field {
     fn near_rim(
         &self,
         shape: &Shape,
-        place: [usize; 2],
-        other: [usize; 2],
+        place: [isize; 2],
+        other: [isize; 2],
         k: usize,
         fall: f64,
     ) -> Option<f64> {
@@ -146,7 +172,7 @@ impl Field {
             for at in place[d].min(other[d])..=place[d].max(other[d]) {
                 let mut on = place;
                 on[d] = at;
-                extent[d] += self.cells[on[0] * self.size[1] + on[1]].shape.as_ref()?.width[d];
+                extent[d] += self.cell(on).shape.as_ref()?.width[d];
             }
         }
         let speeds = tangents.map(norm);
@@ -163,12 +189,12 @@ impl Field {
     }
 
     /// Rows and columns around a place that count as near and across which the surface is C1: first and last.
-    fn block(&self, place: [usize; 2], cell: &Cell) -> [[usize; 2]; 2] {
+    fn block(&self, place: [isize; 2], cell: &Cell) -> Block {
         [0, 1].map(|k| {
-            let [before, after] = self.smooth[k][place[k]];
+            let [before, after] = self.smooth[k][place[k] as usize];
             let ratio = 1.5 * cell.bounds.half[1 - k] / cell.bounds.half[k];
             let wide = (ratio.min(WIDEST as f64) as usize).max(NEAR);
-            [place[k] - before.min(wide), place[k] + after.min(wide)]
+            [place[k] - before.min(wide) as isize, place[k] + after.min(wide) as isize]
         })
     }
 
@@ -177,7 +203,7 @@ impl Field {
     ///
     /// For parameters h, k apart: `N.(x - f) = int (1 - t) (N.S_uu h^2 + ..)`, at most half the greatest; and
     /// `|x - f| = |int S_u h + S_v k|`, at least that of the mean tangents less what they are off.
-    fn near(&self, shape: &Shape, place: [usize; 2], other: [usize; 2]) -> Option<[f64; 2]> {
+    fn near(&self, shape: &Shape, place: [isize; 2], other: [isize; 2]) -> Option<[f64; 2]> {
         let (tangents, least, between) = self.between(shape, place, other)?;
         let mut along = [[f64::INFINITY, f64::NEG_INFINITY]; 3];
         for other in between {
@@ -203,14 +229,14 @@ impl Field {
     fn between(
         &self,
         shape: &Shape,
-        place: [usize; 2],
-        other: [usize; 2],
+        place: [isize; 2],
+        other: [isize; 2],
     ) -> Option<([Vector; 2], f64, impl Iterator<Item = &Shape>)> {
-        let end = self.cells[other[0] * self.size[1] + other[1]].shape.as_ref()?;
+        let end = self.cell(other).shape.as_ref()?;
         let tangents = [0, 1].map(|k| scaled(add(shape.tangents[k], end.tangents[k]), 0.5));
         let [rows, columns] = [0, 1].map(|k| place[k].min(other[k])..=place[k].max(other[k]));
         let cells = rows.flat_map(move |i| columns.clone().map(move |j| (i, j)));
-        let shapes = cells.map(|(i, j)| self.cells[i * self.size[1] + j].shape.as_ref());
+        let shapes = cells.map(|(i, j)| self.cell([i, j]).shape.as_ref());
         let mut off = [0.0f64; 2];
         for between in shapes.clone() {
             let between = between?;
@@ -220,12 +246,17 @@ impl Field {
             }
         }
         let least = angle_factor(&tangents) - relative(&tangents, &off) * MARGIN;
-        (least > 0.0).then(|| (tangents, least, shapes.flatten()))
+        (least > self.straight).then(|| (tangents, least, shapes.flatten()))
     }
-}
 
-/// Whether rows and columns (first and last) lie in a block.
-fn covered(block: [[usize; 2]; 2]) -> impl Fn([usize; 2], [usize; 2]) -> bool {
-    let within = move |k: usize, ends: [usize; 2]| block[k][0] <= ends[0] && ends[1] <= block[k][1];
-    move |rows, columns| within(0, rows) && within(1, columns)
+    /// Whether rows and columns (first and last) lie in a block.
+    fn covered(&self, block: Block) -> impl Fn([usize; 2], [usize; 2]) -> bool {
+        let size = self.size;
+        let within = move |k: usize, [first, last]: [usize; 2]| {
+            let [low, high] = block[k];
+            let from = (first as isize - low).rem_euclid(size[k] as isize);
+            from + (last - first) as isize <= high - low
+        };
+        move |rows, columns| within(0, rows) && within(1, columns)
+    }
 }

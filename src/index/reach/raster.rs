@@ -13,6 +13,10 @@ const CELLS: usize = 144;
 const CHANGE: f64 = 0.125;
 const COARSER: f64 = 1.25;
 
+/// A greater change says nothing of the tangents of arcs any more, so that rational patches may have more cells: so many each.
+const COARSEST: f64 = 0.4;
+const MORE: [usize; 2] = [48, 1024];
+
 /// Patches of a row or column of patches that are looked at.
 const SAMPLES: usize = 16;
 
@@ -48,12 +52,14 @@ impl Raster {
             }
         }
         let most = CELLS.max(spans[0].len() * spans[1].len());
+        let more = (MORE[0] * spans[0].len() * spans[1].len()).min(MORE[1]);
         let mut aim = CHANGE;
         loop {
             let splits = changes
                 .each_ref()
                 .map(|list| list.iter().map(|change| split(*change, aim)).collect::<Vec<usize>>());
             let [rows, columns] = splits.each_ref().map(|list| list.iter().sum::<usize>());
+            let most = if surface.is_rational() && aim > COARSEST { most.max(more) } else { most };
             if rows * columns <= most || splits.iter().flatten().all(|&n| n == 1) {
                 return Self { starts: splits.map(|list| starts(&list)) };
             }
@@ -82,6 +88,13 @@ impl Raster {
             let [first, next] = [0, 1].map(|n| self.starts[k][patch[k] + n] as usize);
             first + ((at[k] * (next - first) as f64) as usize).min(next - first - 1)
         })
+    }
+
+    /// The row (0) or column (1) of patches with a row or column of cells, and the local parameter of a place in it.
+    pub(super) fn place(&self, k: usize, cell: usize, at: f64) -> (usize, f64) {
+        let patch = self.starts[k].partition_point(|&first| first as usize <= cell) - 1;
+        let [first, next] = [0, 1].map(|n| self.starts[k][patch + n] as usize);
+        (patch, ((cell - first) as f64 + at) / (next - first) as f64)
     }
 
     pub(super) fn memory(&self) -> usize {

@@ -1,0 +1,133 @@
+//! The middles of cells, to begin an iteration at the nearest one.
+
+use crate::bounds::Vector;
+use crate::error::Error;
+use crate::index::piece::reserved;
+use crate::simd::{Kernel, Level, Simd};
+
+/// Most cells that are all looked at; of more, the tree tells which are near.
+const MOST: usize = 256;
+
+/// Cells that are looked at together.
+const WIDTH: usize = 16;
+
+/// Coordinate by coordinate; what is left of the last ones is infinitely far.
+type Block = [[f32; WIDTH]; 3];
+
+/// A cell: the middle of its box, and by which vectors to multiply what is from there to a query to get how far the foot
+/// is off along each parameter, in widths of the cell.
+pub struct Middle {
+    pub center: Vector,
+    pub steps: [Vector; 2],
+}
+
+/// The middles of all cells, where there are few.
+#[derive(Clone, Debug, Default)]
+pub struct Middles {
+    blocks: Vec<Block>,
+    steps: Vec<[[f32; 3]; 2]>,
+}
+
+impl Middles {
+    /// Of all cells.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn new(cells: impl ExactSizeIterator<Item = Middle>) -> Result<Self, Error> {
+        let count = cells.len();
+        if count > MOST {
+            return Ok(Self::default());
+        }
+        let mut blocks: Vec<Block> = reserved(count.div_ceil(WIDTH))?;
+        let mut steps = reserved(count)?;
+        for (k, cell) in cells.enumerate() {
+            if k % WIDTH == 0 {
+                blocks.push([[f32::INFINITY; WIDTH]; 3]);
+            }
+            let block = &mut blocks[k / WIDTH];
+            (0..3).for_each(|c| block[c][k % WIDTH] = cell.center[c] as f32);
+            steps.push(cell.steps.map(|step| step.map(|x| x as f32)));
+        }
+        Ok(Self { blocks, steps })
+    }
+
+    /// The nearest one, the first of equals, and the place in it from which to begin, in widths from its start; `None` where
+    /// there are none.
+    pub fn nearest(&self, query: Vector, level: Level) -> Option<(usize, [f64; 2])> {
+        if self.blocks.is_empty() {
+            return None;
+        }
+        let query = [query[0] as f32, query[1] as f32, query[2] as f32];
+        let at = level.run(Nearest { blocks: &self.blocks, query });
+        let block = &self.blocks[at / WIDTH];
+        let from = [0, 1, 2].map(|c| query[c] - block[c][at % WIDTH]);
+        let place = self.steps[at].map(|step| {
+            let off = step[0] * from[0] + step[1] * from[1] + step[2] * from[2];
+            if off.is_nan() { 0.5 } else { f64::from(0.5 + off.clamp(-0.5, 0.5)) }
+        });
+        Some((at, place))
+    }
+
+    /// Bytes held.
+    pub fn memory(&self) -> usize {
+        self.blocks.capacity() * size_of::<Block>()
+            + self.steps.capacity() * size_of::<[[f32; 3]; 2]>()
+    }
+}
+
+struct Nearest<'a> {
+    blocks: &'a [Block],
+    query: [f32; 3],
+}
+
+impl Kernel for Nearest<'_> {
+    type Out = usize;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) -> usize {
+        let (mut least, mut place) = ([f32::INFINITY; WIDTH], [0u32; WIDTH]);
+        for (k, block) in self.blocks.iter().enumerate() {
+            for n in 0..WIDTH {
+                let [x, y, z] = [
+                    block[0][n] - self.query[0],
+                    block[1][n] - self.query[1],
+                    block[2][n] - self.query[2],
+                ];
+                let square = x * x + y * y + z * z;
+                let nearer = square < least[n];
+                least[n] = if nearer { square } else { least[n] };
+                place[n] = if nearer { k as u32 } else { place[n] };
+            }
+        }
+        let mut best = 0;
+        for n in 1..WIDTH {
+            if least[n] < least[best] || (least[n] == least[best] && place[n] < place[best]) {
+                best = n;
+            }
+        }
+        place[best] as usize * WIDTH + best
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_middle_is_found_on_every_path() {
+        let place = |k: usize| [(k % 7) as f64, (k % 5) as f64, (k / 35) as f64];
+        let steps = [[1.0, 0.0, 0.0], [0.0, 0.0, 8.0]];
+        let middles = |count| Middles::new((0..count).map(|k| Middle { center: place(k), steps }));
+        for count in [1, 15, 16, 17, 250] {
+            let middles = middles(count).unwrap();
+            for k in 0..count {
+                let near = place(k).map(|x| x + 0.125);
+                for level in Level::available() {
+                    let (found, from) = middles.nearest(near, level).unwrap();
+                    assert_eq!((place(found), from), (place(k), [0.625, 1.0]));
+                }
+            }
+        }
+        assert!(middles(257).unwrap().nearest([0.0; 3], Level::detect()).is_none());
+    }
+}
