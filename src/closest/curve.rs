@@ -322,12 +322,15 @@ impl CurveSearch<'_> {
         let Some(range) = self.local_range(site.piece) else { return false };
         let view =
             (self.index.net(site.piece), sub(self.query, self.index.segments[site.piece].center));
+        let home = view.0.jet(site.at[0], view.1).d;
         proof.best > proof.window()
             && [-1.0, 1.0].into_iter().any(|side| {
                 CONTINUUM_STEPS.into_iter().all(|step| {
                     let s = site.at[0] + side * step;
-                    let near = norm(view.0.jet(s.clamp(0.0, 1.0), view.1).d) <= proof.level();
-                    (range[0]..=range[1]).contains(&s) && near
+                    let there = view.0.jet(s.clamp(0.0, 1.0), view.1).d;
+                    // A part that is a single point is one foot.
+                    let other = norm(sub(there, home)) > proof.window();
+                    (range[0]..=range[1]).contains(&s) && other && norm(there) <= proof.level()
                 })
             })
     }
@@ -346,7 +349,7 @@ impl CurveSearch<'_> {
     /// Begins at a place that is likely near, where a foot may settle the search.
     fn start_near(&self, proof: &mut Proof) {
         let Some(reach) = self.reach else { return };
-        if self.options.domain.is_some() || self.options.method != Method::Auto {
+        if self.options.method != Method::Auto {
             return;
         }
         let Some((k, start)) =
@@ -354,7 +357,8 @@ impl CurveSearch<'_> {
         else {
             return;
         };
-        self.iterate_from(k, start, [0.0, 1.0], proof);
+        let Some(range) = self.local_range(k) else { return };
+        self.iterate_from(k, start, range, proof);
         if proof.settled.is_none() {
             self.polish(proof);
         }

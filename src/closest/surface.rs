@@ -314,14 +314,15 @@ impl SurfaceSearch<'_> {
     /// Begins at a place that is likely near, where a foot may settle the search.
     fn start_near(&self, proof: &mut Proof) {
         let Some(reach) = self.reach else { return };
-        if self.options.domain.is_some() || self.options.method != Method::Auto {
+        if self.options.method != Method::Auto {
             return;
         }
         let level = self.index.grid.level;
         let Some((k, start)) = reach.start(self.query, level).or_else(|| self.guess()) else {
             return;
         };
-        self.iterate_from(k, start, [0.0, 1.0, 0.0, 1.0], Method::Auto, proof);
+        let Some(range) = self.local_range(k) else { return };
+        self.iterate_from(k, start, range, Method::Auto, proof);
         if proof.settled.is_none() {
             self.cross(proof);
         }

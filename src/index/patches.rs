@@ -105,11 +105,6 @@ impl SurfaceIndex {
         Ok(())
     }
 
-    /// Whether the numbers of all patches are there.
-    pub fn is_whole(&self) -> bool {
-        matches!(self.numbers, Store::Whole(_))
-    }
-
     /// Patch `k`'s poles.
     pub fn net(&self, k: usize) -> BezierPatch<'_> {
         let width = self.degree.count() * if self.rational { 4 } else { 3 };

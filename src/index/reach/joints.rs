@@ -11,7 +11,7 @@ use crate::bezier::Bidegree;
 use crate::bounds::{Vector, add, dot, norm, scaled, sub};
 use crate::error::Error;
 use crate::index::patch::side;
-use crate::index::patches::SurfaceIndex;
+use crate::index::patches::{HUGE, SurfaceIndex};
 use crate::index::piece::{position_error, position_steps, reserved};
 
 /// Derivatives that differ by a smaller share are one, and so are sides that are nearer.
@@ -40,7 +40,7 @@ struct Join {
 }
 
 impl Joints {
-    /// Of the patches of an index; lines of one whose patches are not at hand are smooth where their knots say so.
+    /// Of the patches of an index; lines of a huge surface are smooth where their knots say so.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`].
@@ -91,7 +91,7 @@ impl Joints {
 
 /// The line between rows (k = 0) or columns of patches, the first before it; `None` where it is not smooth.
 fn join(index: &SurfaceIndex, k: usize, before: usize, after: usize, count: usize) -> Option<Join> {
-    if !index.is_whole() {
+    if index.patches.len() > HUGE {
         return None;
     }
     let patch = |line: usize, n: usize| {
