@@ -333,6 +333,96 @@ fn all_small_loops_are_found_as_loops() {
     }
 }
 
+/// The sheet of [`bumps`] around the z axis at height `up`, mapped by inversion in the unit sphere: curved, rational, bidegree 6. Planes
+/// across the axis at height h become spheres through the origin about (0, 0, 1 / 2h).
+fn inverted_bumps(rows: usize, up: f64) -> IndexedSurface {
+    let sheet = bumps(rows);
+    let (surface, spans) = (sheet.surface(), 4 * rows);
+    let middle = 0.25 * (4 * rows + 2) as f64 / 2.0;
+    let at = |u: f64, v: f64| {
+        let x = surface.evaluate(u, v);
+        [x[0] - middle, x[1] - middle, x[2] + up]
+    };
+    // Bernstein coefficients of degree 6 from values at seven places.
+    let binomial = [1., 6., 15., 20., 15., 6., 1.];
+    let basis = |t: f64| -> [f64; 7] {
+        std::array::from_fn(|i| binomial[i] * t.powi(i as i32) * (1.0 - t).powi(6 - i as i32))
+    };
+    let fit = |values: [f64; 7]| -> [f64; 7] {
+        let mut rows: Vec<[f64; 8]> = (0..7)
+            .map(|k| {
+                let b = basis(k as f64 / 6.0);
+                std::array::from_fn(|i| if i < 7 { b[i] } else { values[k] })
+            })
+            .collect();
+        for c in 0..7 {
+            let best = (c..7).max_by(|&a, &b| rows[a][c].abs().total_cmp(&rows[b][c].abs()));
+            rows.swap(c, best.unwrap());
+            for r in (0..7).filter(|&r| r != c) {
+                let f = rows[r][c] / rows[c][c];
+                (c..8).for_each(|k| rows[r][k] -= f * rows[c][k]);
+            }
+        }
+        std::array::from_fn(|i| rows[i][7] / rows[i][i])
+    };
+    let count = 6 * spans + 1;
+    let (mut poles, mut weights) = (vec![[0.0; 3]; count * count], vec![0.0; count * count]);
+    for a in 0..spans {
+        for b in 0..spans {
+            // The homogeneous point: S, |S|^2.
+            let mut net = [[[0.0; 7]; 7]; 4];
+            for i in 0..7 {
+                for j in 0..7 {
+                    let x = at(a as f64 + i as f64 / 6.0, b as f64 + j as f64 / 6.0);
+                    (0..3).for_each(|c| net[c][i][j] = x[c]);
+                    net[3][i][j] = dot(x, x);
+                }
+            }
+            for part in &mut net {
+                *part = part.map(fit);
+                for j in 0..7 {
+                    let column = fit(std::array::from_fn(|i| part[i][j]));
+                    (0..7).for_each(|i| part[i][j] = column[i]);
+                }
+            }
+            for i in 0..7 {
+                for j in 0..7 {
+                    let k = (6 * a + i) * count + 6 * b + j;
+                    weights[k] = net[3][i][j];
+                    poles[k] = [0, 1, 2].map(|c| net[c][i][j] / net[3][i][j]);
+                }
+            }
+        }
+    }
+    let knots: Vec<f64> =
+        (0..count + 7).map(|k| (k.max(1) - 1) as f64 / 6.0).map(f64::floor).collect();
+    let knots: Vec<f64> = knots.into_iter().map(|k| k.min(spans as f64)).collect();
+    let surface = Surface::new(&knots, &knots, 6, 6, &poles, count, count, Some(&weights));
+    IndexedSurface::new(surface.unwrap())
+}
+
+#[test]
+fn all_small_loops_are_found_on_a_curved_rational_sheet_cut_by_a_sphere() {
+    for (rows, up) in [(1, 2.0), (3, 4.0)] {
+        let sheet = inverted_bumps(rows, up);
+        for m in motions().into_iter().take(if rows == 1 { 4 } else { 2 }) {
+            let shape = m.surface(&sheet);
+            let ball = |gap: f64| {
+                let radius = 0.5 / (up + 4.0 / 9.0 - gap);
+                Quadric::sphere(m.point([0.0, 0.0, radius]), radius * m.scale).unwrap()
+            };
+            for gap in [1e-2, 1e-4, 1e-6, 1e-8] {
+                let section = cut(&shape, &ball(gap));
+                let text = || summary(&section);
+                assert!(section.is_complete(), "{rows} {gap} {m:?} {}", text());
+                assert_eq!(section.branches.len(), rows * rows, "{rows} {gap} {m:?}");
+                assert_eq!(loops(&section), rows * rows, "{rows} {gap} {m:?}");
+                assert_eq!(cut(&shape, &ball(-gap)), Section::default(), "{rows} {gap}");
+            }
+        }
+    }
+}
+
 #[test]
 fn a_stack_of_planes_is_the_planes_one_by_one_for_any_number_of_threads() {
     let shape = torus();

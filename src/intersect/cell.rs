@@ -17,6 +17,9 @@ use crate::index::position_steps;
 /// The greatest `|Y| slope` at which a line is taken to cross a cell at most once.
 pub const MOST_DEVIATION: f64 = 0.9;
 
+/// See [`Inverse::rounding`]: six roundings a product, and those of the slopes.
+pub const ROUNDING: f64 = 16.0 * HALF_ULP;
+
 /// The model of a piece.
 #[derive(Clone, Copy, Debug)]
 pub struct Cell {
@@ -26,6 +29,8 @@ pub struct Cell {
     pub edges: [Vector; 2],
     /// Halves of the second derivatives aa, ab, bb in the middle, about.
     pub bends: [Vector; 3],
+    /// Bounds of |X_aa|, |X_ab|, |X_bb|.
+    pub most_bent: [f64; 3],
     /// Bound of |E|.
     pub off: f64,
     /// Bound of |E_a| + |E_b|.
@@ -37,17 +42,30 @@ pub struct Cell {
 pub enum Meeting {
     /// They do not meet.
     None,
-    /// At most one zero; about where, in [-1, 1]^2, and whether it is sure to be inside.
-    Once {
-        /// About where.
-        at: [f64; 2],
-        /// Bound of `|Y| slope`.
-        deviation: f64,
-        /// Whether existence is shown.
-        is_inside: bool,
-    },
-    /// Not decided.
-    Open,
+    /// At most one zero.
+    Once(Zero),
+    /// Any number of zeros.
+    Open(Zero),
+    /// Nothing: the line lies in the plane of the model.
+    Grazing,
+}
+
+/// Where zeros can be in a cell, in [-1, 1]^2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Zero {
+    /// The zero of the linear model.
+    pub at: [f64; 2],
+    /// How far from there zeros can be.
+    pub reach: [f64; 2],
+    /// Bound of `|Y| slope`.
+    pub deviation: f64,
+}
+
+impl Zero {
+    /// Whether a zero that is the only one is sure to be in the cell.
+    pub fn is_inside(&self) -> bool {
+        (0..2).all(|k| self.at[k].abs() + self.reach[k] < 1.0)
+    }
 }
 
 /// A line with two unit vectors across it, in the coordinates of what it is tested against.
@@ -73,17 +91,28 @@ impl Axis {
     }
 }
 
-/// The two rows that undo the middle slopes, with their lengths; `None` when they cannot be undone.
-pub fn inverse(axis: &Axis, edges: &[Vector; 2]) -> Option<([[f64; 2]; 2], [f64; 2])> {
+/// The two rows that undo the middle slopes; `None` when they cannot be undone.
+pub fn inverse(axis: &Axis, edges: &[Vector; 2]) -> Option<Inverse> {
     let a = axis.across.map(|n| [dot(n, edges[0]), dot(n, edges[1])]);
     let det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
     let size = (a[0][0] * a[1][1]).abs() + (a[0][1] * a[1][0]).abs();
     if det.abs() <= 1e-9 * size || det.is_nan() {
         return None;
     }
-    let y = [[a[1][1] / det, -a[0][1] / det], [-a[1][0] / det, a[0][0] / det]];
-    // The lengths, with the rounding of the rows: at most a few units over 1e-9.
-    Some((y, y.map(|row| (row[0] * row[0] + row[1] * row[1]).sqrt() * (1.0 + 1e-6))))
+    let rows = [[a[1][1] / det, -a[0][1] / det], [-a[1][0] / det, a[0][0] / det]];
+    let lengths = rows.map(|row| (row[0] * row[0] + row[1] * row[1]).sqrt() * (1.0 + 1e-6));
+    Some(Inverse { rows, lengths, rounding: ROUNDING * (1.0 + 4.0 * (size / det).abs()) })
+}
+
+/// See [`inverse`].
+#[derive(Clone, Copy, Debug)]
+pub struct Inverse {
+    /// The rows.
+    pub rows: [[f64; 2]; 2],
+    /// Bounds of their lengths: the rounding of the rows is at most a few units over 1e-9.
+    pub lengths: [f64; 2],
+    /// What rounding leaves of `1 - Y A`, and in `Y c`, for places up to twice the size of the cell.
+    pub rounding: f64,
 }
 
 impl Cell {
@@ -105,6 +134,7 @@ impl Cell {
             middle: mean(corners, [1.0; 4]),
             edges: [mean([a, b, c, d], [-1., -1., 1., 1.]), mean([a, b, c, d], [-1., 1., -1., 1.])],
             bends: [[0.0; 3]; 3],
+            most_bent: [0.0; 3],
             off: 0.0,
             slope: 0.0,
         };
@@ -112,8 +142,11 @@ impl Cell {
         cell.centre(degree, &place);
         cell.bound(degree, rational, &weight, &place, poles);
         let steps = position_steps(degree.s + degree.t) * radius;
+        let degrees = (degree.s + degree.t) as f64;
         cell.off = cell.off * (1.0 + 1e-9) + steps;
-        cell.slope = cell.slope * (1.0 + 1e-9) + 2.0 * (degree.s + degree.t) as f64 * steps;
+        cell.slope = cell.slope * (1.0 + 1e-9) + 2.0 * degrees * steps;
+        cell.bound_bends(degree, rational, poles);
+        cell.most_bent = cell.most_bent.map(|x| x * (1.0 + 1e-9) + 4.0 * degrees * degrees * steps);
         cell
     }
 
@@ -214,8 +247,63 @@ impl Cell {
         if det <= 1e-18 * e * g { f64::INFINITY } else { (e.max(g) / det).sqrt() * self.slope }
     }
 
-    /// Whether a line that grazes passes beside: seen along it the cell is a strip.
-    fn is_beside(&self, axis: &Axis, r: Vector, off: f64) -> bool {
+    /// Bounds the second derivatives: those of `r - W X0`, and what the weights add.
+    fn bound_bends(&mut self, degree: Bidegree, rational: bool, poles: &[f64]) {
+        let (count, width) = (degree.count(), degree.t + 1);
+        let middle = self.middle;
+        // The parts of `r - W X0` and W in one differenced coefficient: a sum of `share` times pole.
+        let of = |terms: &[(f64, usize)]| {
+            let sum = |c: usize| terms.iter().map(|&(f, k)| f * poles[c * count + k]).sum::<f64>();
+            let w = if rational { sum(3) } else { terms.iter().map(|&(f, _)| f).sum() };
+            (norm([0, 1, 2].map(|c| sum(c) - w * middle[c])), w.abs())
+        };
+        let (n, m) = (degree.s as f64, degree.t as f64);
+        let mut second = [(0.0f64, 0.0f64); 3];
+        let mut first = [0.0f64; 2];
+        let (mut least, mut reach) = (f64::INFINITY, 0.0f64);
+        let raise = |to: &mut (f64, f64), (a, b): (f64, f64), by: f64| {
+            *to = (to.0.max(by * a), to.1.max(by * b));
+        };
+        for k in 0..count {
+            let (i, j) = (k / width, k % width);
+            let (distance, w) = of(&[(1.0, k)]);
+            (least, reach) = (least.min(w), reach.max(distance / w));
+            if i < degree.s {
+                first[0] = first[0].max(0.5 * n * of(&[(1.0, k + width), (-1.0, k)]).1);
+            }
+            if j < degree.t {
+                first[1] = first[1].max(0.5 * m * of(&[(1.0, k + 1), (-1.0, k)]).1);
+            }
+            if i + 2 <= degree.s {
+                let terms = [(1.0, k), (-2.0, k + width), (1.0, k + 2 * width)];
+                raise(&mut second[0], of(&terms), 0.25 * n * (n - 1.0));
+            }
+            if i < degree.s && j < degree.t {
+                let terms = [(1.0, k), (-1.0, k + width), (-1.0, k + 1), (1.0, k + width + 1)];
+                raise(&mut second[1], of(&terms), 0.25 * n * m);
+            }
+            if j + 2 <= degree.t {
+                let terms = [(1.0, k), (-2.0, k + 1), (1.0, k + 2)];
+                raise(&mut second[2], of(&terms), 0.25 * m * (m - 1.0));
+            }
+        }
+        if !rational {
+            self.most_bent = second.map(|(of_r, _)| of_r);
+            return;
+        }
+        let speed = self.edges.map(|e| norm(e) + self.slope);
+        let turns = [
+            2.0 * first[0] * speed[0],
+            first[0] * speed[1] + first[1] * speed[0],
+            2.0 * first[1] * speed[1],
+        ];
+        for k in 0..3 {
+            self.most_bent[k] = (second[k].0 + turns[k] + second[k].1 * reach) / least;
+        }
+    }
+
+    /// Whether a line that grazes passes beside: seen along it the cell is a strip. `r` leads from the line to the middle.
+    pub fn is_beside(&self, axis: &Axis, r: Vector, off: f64) -> bool {
         let n = cross(self.edges[0], self.edges[1]);
         let m = sub(n, scaled(axis.direction, dot(n, axis.direction)));
         let spread = dot(m, self.edges[0]).abs() + dot(m, self.edges[1]).abs() + norm(m) * off;
@@ -224,10 +312,8 @@ impl Cell {
         dot(m, r).abs() > spread * (1.0 + 64.0 * HALF_ULP) + rounding
     }
 
-    /// Tests a line in the cell's coordinates; `slack` bounds the rounding of its place.
-    #[inline]
-    pub fn meet(&self, axis: &Axis, slack: f64) -> Meeting {
-        let r = sub(self.middle, axis.origin);
+    /// Tests a line: `r` leads from a point of it to the middle of the cell; `slack` bounds the rounding of its place.
+    pub fn meet(&self, axis: &Axis, r: Vector, slack: f64) -> Meeting {
         let off = self.off + slack;
         let c = [dot(axis.across[0], r), dot(axis.across[1], r)];
         let a = axis.across.map(|n| [dot(n, self.edges[0]), dot(n, self.edges[1])]);
@@ -236,26 +322,19 @@ impl Cell {
                 return Meeting::None;
             }
         }
-        let Some((y, lengths)) = inverse(axis, &self.edges) else {
-            return if self.is_beside(axis, r, off) { Meeting::None } else { Meeting::Open };
+        let Some(Inverse { rows, lengths, rounding }) = inverse(axis, &self.edges) else {
+            return if self.is_beside(axis, r, off) { Meeting::None } else { Meeting::Grazing };
         };
-        let at = y.map(|row| -(row[0] * c[0] + row[1] * c[1]));
-        let reach = lengths.map(|l| l * off + 16.0 * HALF_ULP);
+        let at = rows.map(|row| -(row[0] * c[0] + row[1] * c[1]));
+        let reach = lengths.map(|l| l * off + rounding);
         if (0..2).any(|k| at[k].abs() - reach[k] > 1.0) {
             return Meeting::None;
         }
-        let deviation = lengths[0].max(lengths[1]) * self.slope;
-        if deviation.is_nan() || deviation > MOST_DEVIATION {
-            return if self.is_beside(axis, r, off) { Meeting::None } else { Meeting::Open };
+        let zero = Zero { at, reach, deviation: lengths[0].max(lengths[1]) * self.slope };
+        if zero.deviation <= MOST_DEVIATION {
+            return Meeting::Once(zero);
         }
-        let is_inside = (0..2).all(|k| at[k].abs() + reach[k] < 1.0);
-        // One step of the quadratic model.
-        let [p, q] = at.map(|x| x.clamp(-1.0, 1.0));
-        let [aa, ab, bb] = self.bends;
-        let e = [0, 1, 2].map(|k| p * p * aa[k] + p * q * ab[k] + q * q * bb[k]);
-        let f = [dot(axis.across[0], e), dot(axis.across[1], e)];
-        let at = [0, 1].map(|k| at[k] - (y[k][0] * f[0] + y[k][1] * f[1]));
-        Meeting::Once { at, deviation, is_inside }
+        if self.is_beside(axis, r, off) { Meeting::None } else { Meeting::Open(zero) }
     }
 }
 
@@ -290,9 +369,12 @@ mod tests {
             }
         }
         let axis = Axis::new([0.3, 0.6, 0.0], [0.0, 0.0, 1.0]);
-        let Meeting::Once { at, is_inside, .. } = cell.meet(&axis, 0.0) else { panic!() };
-        assert!(is_inside && (at[0] + 0.4).abs() < 1e-12 && (at[1] - 0.2).abs() < 1e-12);
+        let Meeting::Once(zero) = cell.meet(&axis, sub(cell.middle, axis.origin), 0.0) else {
+            panic!()
+        };
+        assert!(zero.is_inside() && (zero.at[0] + 0.4).abs() < 1e-12);
+        assert!((zero.at[1] - 0.2).abs() < 1e-12);
         let away = Axis::new([1.3, 0.6, 0.0], [0.0, 0.0, 1.0]);
-        assert_eq!(cell.meet(&away, 0.0), Meeting::None);
+        assert_eq!(cell.meet(&away, sub(cell.middle, away.origin), 0.0), Meeting::None);
     }
 }
