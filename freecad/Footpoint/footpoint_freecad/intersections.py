@@ -20,7 +20,9 @@ SAMPLES = 257
 class Found:
     """What *Intersect faces* finds: edges and vertices for drawing; counts; lines of text.
 
-    error  greatest distance of an edge from the intersection, as measured, in mm; proven: no branch of the two surfaces is missing
+    curves  edges: a branch that passes a seam is one on each side; loops: closed branches that lie in both faces as a whole
+    error   greatest distance of an edge from the intersection, as measured, in mm
+    proven  no branch of the two surfaces is missing
     """
 
     shapes: list[Any] = field(default_factory=list)
@@ -77,20 +79,22 @@ def of_faces(first: Any, second: Any, tolerance: float = 0.0) -> Found:
     whole = library().intersect_surfaces(a.shape, b.shape)
     found = Found(overlaps=len(whole.overlaps), undecided=len(whole.undecided), proven=whole.is_proven)
     for number, branch in enumerate(whole.branches):
+        is_whole = branch.is_closed
         for curves in whole.curves(number, tolerance):
             ends = tuple(float(end) for end in curves.space.domain)
             found.error = max(found.error, float(curves.error))
             spline = weights.to_freecad(curves.space)
-            for piece in _pieces(within, curves):
-                found.shapes.append(spline.toShape(*piece))
-                found.curves += 1
-                found.loops += branch.is_closed and piece == ends and spline.isClosed()
+            pieces = _pieces(within, curves)
+            found.shapes += [spline.toShape(*piece) for piece in pieces]
+            found.curves += len(pieces)
+            is_whole &= pieces == [ends]
+        found.loops += is_whole
     for contact in whole.contacts:
         if within(np.array([contact.place["uv"]]), np.array([contact.place["st"]]))[0]:
             found.shapes.append(Part.Vertex(*(float(x) for x in contact.place["point"])))
             found.points += 1
     state = "proven: nothing is missing" if found.proven else "not proven"
-    found.text = [f"{found.curves} curves ({found.loops} closed), {found.points} points; {state}",
+    found.text = [f"{found.curves} curves, {found.loops} closed loops, {found.points} points; {state}",
                   f"curves within {found.error:.3g} mm, as measured"]
     if found.overlaps:
         found.text.append(f"the surfaces coincide in {found.overlaps} areas of their parameters")
