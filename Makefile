@@ -10,7 +10,7 @@ THREADS ?= $(JOBS)
 CASES   ?= ../shared/cases
 OCCT_PACKAGES = libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev
 
-.PHONY: help build test test-rust test-c test-python test-freecad stress weights-stress demo demo-weights compare-occt compare-fit bench bench-drivers bench-instructions install deb abi-baseline clean
+.PHONY: help build test test-rust test-c test-python test-freecad stress weights-stress demo demo-weights compare-occt compare-fit compare-intersect bench bench-drivers bench-instructions install deb abi-baseline clean
 
 help:
 	@echo "make build             build the library, shared and static, into $(BUILD)/lib"
@@ -21,6 +21,7 @@ help:
 	@echo "make demo-weights      the part of it that finds weights from wished distances, with two figures"
 	@echo "make compare-occt      compare the extrema with OpenCASCADE 7.6 on the cases in $(CASES) (minutes)"
 	@echo "make compare-fit       fit surfaces to grids of 100,000 points, beside OpenCASCADE (three minutes)"
+	@echo "make compare-intersect rays, 200 pairs of faces, contour lines, hits of curves, beside OpenCASCADE, CGAL and SISL (ten minutes)"
 	@echo "make bench             time against OpenCASCADE, SISL and CGAL on the cases in $(CASES) (ten minutes); tables and"
 	@echo "                       pictures go to bench-out/; BENCH_QUICK=1 takes a fifth of the cases (two minutes)"
 	@echo "make bench-instructions  count instructions per query with callgrind, beside docs/instructions.csv; RECORD=1 appends"
@@ -133,6 +134,16 @@ compare-fit: build
 	cmake -S compare/occt -B $(BUILD)/compare-occt -DFOOTPOINT_LIB="$(abspath $(BUILD))/lib"
 	cmake --build $(BUILD)/compare-occt -j $(JOBS) --target compare_fit
 	$(BUILD)/compare-occt/compare_fit
+
+compare-intersect: build
+	$(call need,cmake g++,$(OCCT_PACKAGES))
+	-$(call need,,libcgal-dev)
+	-$(call need,,libsisl-dev)
+	cmake -S compare/intersect -B $(BUILD)/intersect -DFOOTPOINT_LIB="$(abspath $(BUILD))/lib"
+	cmake --build $(BUILD)/intersect -j $(JOBS)
+	if [ -x $(BUILD)/intersect/rays ]; then $(BUILD)/intersect/rays "$(CASES)"; fi
+	$(BUILD)/intersect/stacks "$(CASES)"
+	$(BUILD)/intersect/pairs 200 1 $(BUILD)/intersect/pairs.csv
 
 # A library that cannot be had is left out, and the tables say so.
 bench-drivers: build

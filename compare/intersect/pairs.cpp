@@ -25,15 +25,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <functional>
 #include <map>
-#include <poll.h>
+#include <csignal>
 #include <random>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -43,7 +43,7 @@ namespace {
 
 constexpr double TOLERANCE = 1e-7;
 constexpr int SAMPLES = 48;
-constexpr int SECONDS = 60;
+constexpr int SECONDS = 60; // of processor time
 
 using Surface = Handle(Geom_Surface);
 using Curve = Handle(Geom_Curve);
@@ -144,8 +144,8 @@ std::array<int, 2> components(const std::vector<Curve> &lines, double near) {
 double angle(const footpoint::surface &a, const footpoint::surface &b, const std::array<double, 3> &at) {
     const auto normal = [&](const footpoint::surface &s) {
         const auto foot = s.closest(std::vector<double>(at.begin(), at.end()))[0];
-        const auto d = s.partials(foot.u, foot.v, 1);
-        return gp_Vec(d[1][0], d[1][1], d[1][2]).Crossed(gp_Vec(d[2][0], d[2][1], d[2][2]));
+        const std::vector<double> d = s.evaluate(foot.u, foot.v, 1);
+        return gp_Vec(d[3], d[4], d[5]).Crossed(gp_Vec(d[6], d[7], d[8]));
     };
     const gp_Vec p = normal(a), q = normal(b);
     return p.Crossed(q).Magnitude() / std::max(p.Magnitude() * q.Magnitude(), 1e-300);
@@ -260,6 +260,8 @@ bool guarded(const Surface &s, const Surface &t, Report &out) {
     const pid_t child = fork();
     if (child == 0) {
         close(ends[0]);
+        const rlimit limit{SECONDS, SECONDS + 1};
+        setrlimit(RLIMIT_CPU, &limit);
         Report report;
         try {
             compare(s, t, report);
@@ -272,13 +274,11 @@ bool guarded(const Surface &s, const Surface &t, Report &out) {
         _exit(written ? 0 : 1);
     }
     close(ends[1]);
-    pollfd waiting{ends[0], POLLIN, 0};
-    const bool ready = poll(&waiting, 1, 1000 * SECONDS) == 1 && read(ends[0], &out, sizeof out) == ssize_t(sizeof out);
-    if (!ready) kill(child, SIGKILL);
+    const bool ready = read(ends[0], &out, sizeof out) == ssize_t(sizeof out);
     close(ends[0]);
     int status = 0;
     waitpid(child, &status, 0);
-    if (!ready) std::snprintf(out.note, sizeof out.note, WIFSIGNALED(status) && WTERMSIG(status) != SIGKILL ? "crashed" : "longer than %d s", SECONDS);
+    if (!ready) std::snprintf(out.note, sizeof out.note, WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU ? "longer than %d s" : "crashed", SECONDS);
     return ready;
 }
 
@@ -396,7 +396,7 @@ int main(int argc, char **argv) {
                     BRepTools::Write(g.face, (base + "b.brep").c_str());
                 }
                 if (what != "same") {
-                    char line[400];
+                    char line[640];
                     std::snprintf(line, sizeof line, "%4d %-18s %-28s %-28s %-18s %s: ours %d (%d closed, %d contacts, %d overlaps, %d undecided), "
                                                      "OCCT %d (%d closed); only ours %.3f, only OCCT %.3f of the size, sine of the angle there %.0e %s",
                                   found, solid.name.c_str(), kind(s).c_str(), kind(t).c_str(), how, what.c_str(), r.ours[0], r.ours[1], r.contacts,

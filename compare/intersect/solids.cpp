@@ -81,7 +81,8 @@ TopoDS_Shape vase() {
 
 TopoDS_Shape loft(bool ruled) {
     BRepOffsetAPI_ThruSections sections(true, ruled);
-    for (const auto &[z, r, lean] : {std::array<double, 3>{0, 12, 0}, {12, 7, 0.2}, {24, 9, 0.4}, {36, 14, 0.1}})
+    const double rings[4][3] = {{0, 12, 0}, {12, 7, 0.2}, {24, 9, 0.4}, {36, 14, 0.1}};
+    for (const auto &[z, r, lean] : rings)
         sections.AddWire(ring(gp_Pnt(10 * lean, 0, z), gp_Dir(lean, 0, 1), r));
     return sections.Shape();
 }

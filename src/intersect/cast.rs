@@ -9,7 +9,7 @@
 //! Reference: Krawczyk 1969; Toth 1985.
 
 use super::cell::{Cell, Inverse, Meeting, Zero, inverse};
-use super::cells::{Beam, Candidate, Cells};
+use super::cells::{Beam, Candidate, Cells, halves};
 use crate::bounds::{Vector, cross, dot, norm, scaled, sub};
 use crate::index::{SurfaceIndex, position_steps};
 
@@ -34,6 +34,7 @@ struct Part {
     area: [f64; 4],
     edges: [Vector; 2],
     bends: [Vector; 3],
+    slopes: [f64; 2],
     /// Bound of the rounding of an evaluation.
     error: f64,
 }
@@ -86,6 +87,7 @@ impl Search<'_> {
             area: rest.area,
             edges: cell.edges,
             bends: cell.bends,
+            slopes: cell.slopes,
             error,
         };
         if candidate.is_single() {
@@ -141,8 +143,8 @@ impl Search<'_> {
         Outcome::Open
     }
 
-    /// Whether no zero is in the part, seen from a place on its rim: every zero z of the part has
-    /// `|z - y + Y F(y)| <= deviation |z - y|`.
+    /// Whether no zero is in the part, seen from a place y on its rim. With `r = Y F(y)` every zero z of the part has
+    /// `|zi - yi + ri| <= |Yi| m` with `m = sa |z1 - y1| + sb |z2 - y2|`, so that `m <= (sa |r1| + sb |r2|) / (1 - deviation)`.
     fn is_outside(
         &self,
         part: &Part,
@@ -156,11 +158,11 @@ impl Search<'_> {
         let d = self.index.net(part.patch).vector(at[0], at[1], base);
         let f = self.beam.axis.across.map(|n| dot(n, d));
         let r = inverse.rows.map(|row| row[0] * f[0] + row[1] * f[1]);
-        let most = r[0].abs().max(r[1].abs());
-        let longest = inverse.lengths[0].max(inverse.lengths[1]);
-        let spread = deviation * most / (1.0 - deviation) + longest * part.error + inverse.rounding;
+        let sum = part.slopes[0] * r[0].abs() + part.slopes[1] * r[1].abs();
+        // The rounding of F moves r by as much in each row: both terms of the sum, and the row itself.
+        let most = (sum + deviation * part.error) / (1.0 - deviation) + part.error;
         (0..2).any(|k| {
-            let z = edge[k] - r[k];
+            let (z, spread) = (edge[k] - r[k], inverse.lengths[k] * most + inverse.rounding);
             z - spread > 1.0 || z + spread < -1.0
         })
     }
@@ -189,21 +191,27 @@ impl Search<'_> {
             let jet = self.index.net(whole.patch).slopes(middle[0], middle[1], base);
             let share = [half[0] / full[0], half[1] / full[1]];
             let square = [share[0] * share[0], share[0] * share[1], share[1] * share[1]];
-            let off = 0.5 * most_bent[0] * square[0]
-                + most_bent[1] * square[1]
-                + 0.5 * most_bent[2] * square[2];
+            let bent = [0, 1, 2].map(|k| most_bent[k] * square[k]);
+            let rounding = [0, 1].map(|k| 2.0 * degrees * whole.error * half[k]);
+            let edges = [scaled(jet.s, half[0]), scaled(jet.t, half[1])];
+            let lengths = edges.map(norm);
             let cell = Cell {
                 middle: jet.d,
-                edges: [scaled(jet.s, half[0]), scaled(jet.t, half[1])],
+                edges,
                 bends: [0, 1, 2].map(|k| scaled(whole.bends[k], square[k])),
                 most_bent,
-                off: off + whole.error,
-                slope: 2.0 * off + 2.0 * degrees * whole.error * half[0].max(half[1]),
+                off: 0.5 * bent[0] + bent[1] + 0.5 * bent[2] + whole.error,
+                slopes: [bent[0] + bent[1] + rounding[0], bent[1] + bent[2] + rounding[1]],
+                gains: [
+                    bent[0] / lengths[0] + bent[1] / lengths[1],
+                    bent[1] / lengths[0] + bent[2] / lengths[1],
+                ],
             };
             let zero = match cell.meet(axis, jet.d, 0.0) {
                 Meeting::None => continue,
                 Meeting::Once(zero) => {
-                    let part = Part { area, edges: cell.edges, bends: cell.bends, ..*whole };
+                    let Cell { edges, bends, slopes, .. } = cell;
+                    let part = Part { area, edges, bends, slopes, ..*whole };
                     match self.settle(&part, base, &zero) {
                         Outcome::Nothing => continue,
                         Outcome::Crossing(root) => {
@@ -222,7 +230,7 @@ impl Search<'_> {
                 waiting.push(smaller);
                 continue;
             }
-            waiting.extend(halves(smaller, &cell));
+            waiting.extend(halves(&cell, smaller));
         }
         waiting.is_empty()
     }
@@ -283,18 +291,5 @@ fn reached(area: [f64; 4], zero: &Zero) -> [f64; 4] {
             out[2 * k + 1] = area[2 * k + 1].min(middle[k] + half[k] * high + RIM);
         }
     }
-    out
-}
-
-/// The halves of an area, across the direction in which the model is the less linear.
-fn halves(area: [f64; 4], cell: &Cell) -> [[f64; 4]; 2] {
-    let (_, half) = middle_and_half(area);
-    let [aa, ab, bb] = cell.bends.map(norm);
-    let (s, t) = (aa + 0.5 * ab, bb + 0.5 * ab);
-    let k = if s == t { usize::from(half[1] > half[0]) } else { usize::from(t > s) };
-    let middle = 0.5 * (area[2 * k] + area[2 * k + 1]);
-    let mut out = [area; 2];
-    out[0][2 * k + 1] = middle;
-    out[1][2 * k] = middle;
     out
 }

@@ -1,20 +1,20 @@
 //! Small pieces of a patch that a line crosses at most once: their linear models, and the test of a line against one.
 //!
 //! ```text
-//!   X(a, b) = X0 + a Xa + b Xb + E(a, b)   on [-1, 1]^2       |E| <= off    |E_a| + |E_b| <= slope
-//!   line o + t d, n1 and n2 across:        n.(X - o) = c + A (a, b) + n.E    Y = A^-1
+//!   X(a, b) = X0 + a Xa + b Xb + E(a, b)   on [-1, 1]^2       |E| <= off    |E_a| <= sa, |E_b| <= sb
+//!   line o + t d, n1 and n2 across:        n.(X - o) = c + A (a, b) + n.E    Y = A^-1, rows Y1 and Y2
 //!   a zero lies in  -Y c +- |Y| off:       outside of the square: none
 //!                                          inside of it: one (Brouwer)
-//!   |Y| slope < 1:                         at most one
+//!   |Y1| sa + |Y2| sb < 1:                 at most one: the spectral radius of the matrix |Yi| sj
 //! ```
 //!
 //! References: Krawczyk 1969 (the operator); Toth, *On ray tracing parametric surfaces*, 1985 (its use for rays).
 
-use crate::bezier::Bidegree;
+use crate::bezier::{Bidegree, convolve, scale_down_2d, scale_up_2d};
 use crate::bounds::{HALF_ULP, Vector, add, cross, dot, norm, scaled, sub};
 use crate::index::position_steps;
 
-/// The greatest `|Y| slope` at which a line is taken to cross a cell at most once.
+/// The greatest deviation at which a line is taken to cross a cell at most once.
 pub const MOST_DEVIATION: f64 = 0.9;
 
 /// See [`Inverse::rounding`]: six roundings a product, and those of the slopes.
@@ -33,8 +33,10 @@ pub struct Cell {
     pub most_bent: [f64; 3],
     /// Bound of |E|.
     pub off: f64,
-    /// Bound of |E_a| + |E_b|.
-    pub slope: f64,
+    /// Bounds of |E_a| and |E_b|.
+    pub slopes: [f64; 2],
+    /// How much straighter it gets, about, when it is halved across the direction a, b.
+    pub gains: [f64; 2],
 }
 
 /// What a test of a line against a cell shows.
@@ -57,7 +59,7 @@ pub struct Zero {
     pub at: [f64; 2],
     /// How far from there zeros can be.
     pub reach: [f64; 2],
-    /// Bound of `|Y| slope`.
+    /// `|Y1| sa + |Y2| sb`.
     pub deviation: f64,
 }
 
@@ -115,6 +117,102 @@ pub struct Inverse {
     pub rounding: f64,
 }
 
+/// A polynomial in two parameters in scaled Bernstein form: coefficients times binomials, so that products are convolutions.
+struct Scaled {
+    degree: Bidegree,
+    values: Vec<f64>,
+}
+
+impl Scaled {
+    fn new(coefficients: Vec<f64>, degree: Bidegree) -> Self {
+        let mut values = coefficients;
+        scale_up_2d(&mut values, degree);
+        Self { degree, values }
+    }
+
+    fn coefficients(&self) -> Vec<f64> {
+        let mut out = self.values.clone();
+        scale_down_2d(&mut out, self.degree);
+        out
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        let degree =
+            Bidegree { s: self.degree.s + other.degree.s, t: self.degree.t + other.degree.t };
+        let mut values = vec![0.0; degree.count()];
+        convolve(&self.values, self.degree, &other.values, other.degree, 1.0, &mut values);
+        Self { degree, values }
+    }
+
+    /// `self + factor * other`, of one bidegree.
+    fn plus(mut self, factor: f64, other: &Self) -> Self {
+        self.values.iter_mut().zip(&other.values).for_each(|(x, y)| *x += factor * y);
+        self
+    }
+
+    /// The derivative along a direction of [-1, 1]^2, with its degree raised again.
+    fn slope(&self, direction: usize) -> Self {
+        let (degree, width) = (self.degree, self.degree.t + 1);
+        let plain = self.coefficients();
+        let (n, stride) = if direction == 0 { (degree.s, width) } else { (degree.t, 1) };
+        let at = |k: usize| {
+            let i = if direction == 0 { k / width } else { k % width };
+            let before = if i > 0 { plain[k] - plain[k - stride] } else { 0.0 };
+            let after = if i < n { plain[k + stride] - plain[k] } else { 0.0 };
+            0.5 * (i as f64 * before + (n - i) as f64 * after)
+        };
+        Self::new((0..plain.len()).map(at).collect(), degree)
+    }
+}
+
+/// A rational net: `r - W X0`, W, and the least and greatest coefficient of W.
+struct Net {
+    parts: [Scaled; 3],
+    weight: Scaled,
+    weights: [f64; 2],
+}
+
+impl Net {
+    fn new(poles: &[f64], degree: Bidegree, middle: Vector) -> Self {
+        let count = degree.count();
+        let weight = &poles[3 * count..];
+        let parts = [0, 1, 2].map(|c| {
+            let of = |k: usize| poles[c * count + k] - weight[k] * middle[c];
+            Scaled::new((0..count).map(of).collect(), degree)
+        });
+        let weights = weight
+            .iter()
+            .fold([f64::INFINITY, 0.0f64], |[low, high], &w| [low.min(w), high.max(w)]);
+        Self { parts, weight: Scaled::new(weight.to_vec(), degree), weights }
+    }
+
+    /// `W^2` times the derivative along a direction.
+    fn slopes(&self, k: usize) -> [Scaled; 3] {
+        let turn = self.weight.slope(k);
+        [0, 1, 2].map(|c| {
+            let first = self.weight.times(&self.parts[c].slope(k));
+            first.plus(-1.0, &turn.times(&self.parts[c]))
+        })
+    }
+}
+
+/// The greatest coefficient of a vector of polynomials of one bidegree.
+fn greatest(parts: &[Scaled; 3]) -> f64 {
+    let [x, y, z] = [0, 1, 2].map(|c| parts[c].coefficients());
+    x.iter().zip(&y).zip(&z).fold(0.0, |most: f64, ((x, y), z)| most.max(norm([*x, *y, *z])))
+}
+
+/// How far the coefficients of a vector of polynomials wander along each direction.
+fn changes(parts: &[Scaled; 3]) -> [f64; 2] {
+    let degree = parts[0].degree;
+    let [x, y, z] = [0, 1, 2].map(|c| parts[c].coefficients());
+    let width = degree.t + 1;
+    let step = |a: usize, b: usize| norm([x[b] - x[a], y[b] - y[a], z[b] - z[a]]);
+    let along_s = |j: usize| (0..degree.s).map(|i| step(i * width + j, (i + 1) * width + j)).sum();
+    let along_t = |i: usize| (0..degree.t).map(|j| step(i * width + j, i * width + j + 1)).sum();
+    [(0..width).map(along_s).fold(0.0, f64::max), (0..=degree.s).map(along_t).fold(0.0, f64::max)]
+}
+
 impl Cell {
     /// The model of a net, component by component (x, y, z and, when rational, w); `radius` bounds its places.
     pub fn new(poles: &[f64], degree: Bidegree, rational: bool, radius: f64) -> Self {
@@ -136,18 +234,34 @@ impl Cell {
             bends: [[0.0; 3]; 3],
             most_bent: [0.0; 3],
             off: 0.0,
-            slope: 0.0,
+            slopes: [0.0; 2],
+            gains: [0.0; 2],
         };
         cell.bends[1] = mean([a, b, c, d], [1., -1., -1., 1.]);
         cell.centre(degree, &place);
-        cell.bound(degree, rational, &weight, &place, poles);
-        let steps = position_steps(degree.s + degree.t) * radius;
-        let degrees = (degree.s + degree.t) as f64;
+        let (steps, degrees) = (cell.steps(degree, radius), (degree.s + degree.t) as f64);
+        let spread = if rational {
+            let net = Net::new(poles, degree, cell.middle);
+            cell.bound_rational(&net);
+            net.weights[1] / net.weights[0]
+        } else {
+            cell.bound(degree, &place, poles);
+            1.0
+        };
+        // Rounding: of the places, and twice as much for each derivative, over the weights that divide.
+        let steps = steps * spread * spread;
         cell.off = cell.off * (1.0 + 1e-9) + steps;
-        cell.slope = cell.slope * (1.0 + 1e-9) + 2.0 * degrees * steps;
-        cell.bound_bends(degree, rational, poles);
-        cell.most_bent = cell.most_bent.map(|x| x * (1.0 + 1e-9) + 4.0 * degrees * degrees * steps);
+        cell.slopes = cell.slopes.map(|x| x * (1.0 + 1e-9) + 8.0 * degrees * steps);
         cell
+    }
+
+    fn steps(&self, degree: Bidegree, radius: f64) -> f64 {
+        position_steps(degree.s + degree.t) * radius
+    }
+
+    /// The sum of the bounds of |E_a| and |E_b|.
+    pub fn slope(&self) -> f64 {
+        self.slopes[0] + self.slopes[1]
     }
 
     /// Moves the model into the middle of the residuals, and estimates bends.
@@ -188,54 +302,116 @@ impl Cell {
         sub(place, model)
     }
 
-    fn bound(
-        &mut self,
-        degree: Bidegree,
-        rational: bool,
-        weight: &impl Fn(usize) -> f64,
-        place: &impl Fn(usize) -> Vector,
-        poles: &[f64],
-    ) {
+    /// Bounds of a polynomial net.
+    fn bound(&mut self, degree: Bidegree, place: &impl Fn(usize) -> Vector, poles: &[f64]) {
         let (count, width) = (degree.count(), degree.t + 1);
-        let ([mut least, mut most], mut reach, mut off) = ([f64::INFINITY, 0.0f64], 0.0f64, 0.0f64);
+        let mut bent = [[0.0f64; 2]; 2];
         for k in 0..count {
-            let w = weight(k);
-            (least, most) = (least.min(w), most.max(w));
-            reach = reach.max(norm(sub(place(k), self.middle)));
-            off = off.max(norm(self.residual(degree, k, place(k))));
-        }
-        // With weights the model's parameters are not those of the net: the linear part is off by the mean of
-        // (w_k - middle)(a_k - a), at most half the spread of the weights times the deviation of a binomial, 1 / sqrt(n).
-        let skew = if rational { 0.5 * (most - least) / least } else { 0.0 };
-        let spread = |k: usize, n: usize| norm(self.edges[k]) / (n.max(1) as f64).sqrt();
-        self.off = off + skew * (spread(0, degree.s) + spread(1, degree.t));
-        for (direction, n) in [(0, degree.s), (1, degree.t)] {
-            let stride = if direction == 0 { width } else { 1 };
-            let number = |k: usize| if direction == 0 { k / width } else { k % width };
-            let mut worst = 0.0f64;
-            let mut steepest = 0.0f64;
-            for k in 0..count {
-                let i = number(k);
-                // The derivative, with its degree raised to that of the weights.
-                let step = |c: usize| {
-                    let value =
-                        |k: usize| if c == 3 && !rational { 1.0 } else { poles[c * count + k] };
-                    let before = if i > 0 { value(k) - value(k - stride) } else { 0.0 };
-                    let after = if i < n { value(k + stride) - value(k) } else { 0.0 };
-                    0.5 * (i as f64 * before + (n - i) as f64 * after)
+            self.off = self.off.max(norm(self.residual(degree, k, place(k))));
+            let mut include = |direction: usize, other: usize, n: usize| {
+                let by = 0.5 * n as f64;
+                let slope = |k: usize, other: usize| {
+                    [0, 1, 2].map(|c| by * (poles[c * count + other] - poles[c * count + k]))
                 };
-                let slope = [step(0), step(1), step(2)];
-                let grows = step(3);
-                let linear = scaled(self.edges[direction], weight(k));
-                let rest = sub(sub(slope, scaled(self.middle, grows)), linear);
-                worst = worst.max(norm(rest));
-                steepest = steepest.max(grows.abs());
+                let here = slope(k, other);
+                let off = norm(sub(here, self.edges[direction]));
+                self.slopes[direction] = self.slopes[direction].max(off);
+                // The same difference one row and one column on.
+                for (along, step, is_there) in
+                    [(0, width, other / width < degree.s), (1, 1, other % width < degree.t)]
+                {
+                    if is_there {
+                        let turn = norm(sub(slope(k + step, other + step), here));
+                        let times = if along == 0 { degree.s } else { degree.t } as f64;
+                        bent[direction][along] = bent[direction][along].max(times * turn);
+                    }
+                }
+            };
+            if k / width < degree.s {
+                include(0, k + width, degree.s);
             }
-            self.slope += (worst + steepest * reach) / least;
+            if k % width < degree.t {
+                include(1, k + 1, degree.t);
+            }
         }
+        self.gain(bent);
     }
 
-    /// How near a line across the middle comes to crossing twice: `|Y| slope` for a line along the normal.
+    /// Sets the gains from how much the slope along each direction (first index) changes along each (second).
+    fn gain(&mut self, bent: [[f64; 2]; 2]) {
+        let lengths = self.edges.map(norm);
+        self.gains = [0, 1].map(|k| bent[0][k] / lengths[0] + bent[1][k] / lengths[1]);
+    }
+
+    /// Bounds of a rational net.
+    ///
+    /// `W E = r - W (X0 + a Xa + b Xb)` and `W^2 X_a = W r_a - W_a r`: the coefficients of each are formed, so that what cancels does.
+    fn bound_rational(&mut self, net: &Net) {
+        let [least, _] = net.weights;
+        // 1, a and b with the degree (1, 1).
+        let bilinear = Bidegree { s: 1, t: 1 };
+        let [one, a, b] = [[1., 1., 1., 1.], [-1., -1., 1., 1.], [-1., 1., -1., 1.]]
+            .map(|values| Scaled::new(values.to_vec(), bilinear));
+        let linear = [net.weight.times(&a), net.weight.times(&b)];
+        let edges = self.edges;
+        let off = [0, 1, 2].map(|c| {
+            let part = net.parts[c].times(&one).plus(-edges[0][c], &linear[0]);
+            part.plus(-edges[1][c], &linear[1])
+        });
+        self.off = greatest(&off) / least;
+        let square = net.weight.times(&net.weight);
+        let mut bent = [[0.0; 2]; 2];
+        for k in 0..2 {
+            let slopes = net.slopes(k);
+            let mut axis = 0..3;
+            let rest = slopes.map(|part| {
+                let c = axis.next().unwrap_or(0);
+                part.plus(-edges[k][c], &square)
+            });
+            self.slopes[k] = greatest(&rest) / (least * least);
+            bent[k] = changes(&rest);
+        }
+        self.gain(bent);
+    }
+
+    /// Bounds the second derivatives, of the same net: `W^2 X_aa = (W^2 X_a)_a - 2 W W_a X_a`.
+    pub fn bound_bends(
+        &mut self,
+        poles: &[f64],
+        degree: Bidegree,
+        rational: bool,
+        (center, radius): (Vector, f64),
+    ) {
+        // The model may have been moved to where the center of the patch is.
+        let net = if rational {
+            Net::new(poles, degree, sub(self.middle, center))
+        } else {
+            let mut all = poles.to_vec();
+            all.resize(4 * degree.count(), 1.0);
+            Net::new(&all, degree, sub(self.middle, center))
+        };
+        let [least, most] = net.weights;
+        let steepest = [0, 1].map(|k| {
+            let turns = net.weight.slope(k).coefficients();
+            turns.into_iter().fold(0.0f64, |most, x| most.max(x.abs()))
+        });
+        let slopes = if rational {
+            [net.slopes(0), net.slopes(1)]
+        } else {
+            [0, 1].map(|k| [0, 1, 2].map(|c| net.parts[c].slope(k)))
+        };
+        let speed = [0, 1].map(|k| norm(self.edges[k]) + self.slopes[k]);
+        let second = |k: usize, by: usize| {
+            let of = greatest(&[0, 1, 2].map(|c| slopes[k][c].slope(by)));
+            of / (least * least) + 2.0 * steepest[by] * speed[k] / least
+        };
+        let bent = [second(0, 0), second(0, 1).min(second(1, 0)), second(1, 1)];
+        let degrees = (degree.s + degree.t) as f64;
+        let rounding = self.steps(degree, radius) * (most / least) * (most / least);
+        self.most_bent = bent.map(|x| x * (1.0 + 1e-9) + 32.0 * degrees * degrees * rounding);
+    }
+
+    /// How near a line along the normal comes to crossing twice: its deviation.
     pub fn crookedness(&self) -> f64 {
         let [e, f, g] = [
             dot(self.edges[0], self.edges[0]),
@@ -243,62 +419,20 @@ impl Cell {
             dot(self.edges[1], self.edges[1]),
         ];
         let det = e * g - f * f;
-        // The greatest of the two rows' lengths: sqrt(g / det), sqrt(e / det).
-        if det <= 1e-18 * e * g { f64::INFINITY } else { (e.max(g) / det).sqrt() * self.slope }
+        // The lengths of the two rows: sqrt(g / det), sqrt(e / det).
+        if det <= 1e-18 * e * g {
+            return f64::INFINITY;
+        }
+        (g / det).sqrt() * self.slopes[0] + (e / det).sqrt() * self.slopes[1]
     }
 
-    /// Bounds the second derivatives: those of `r - W X0`, and what the weights add.
-    fn bound_bends(&mut self, degree: Bidegree, rational: bool, poles: &[f64]) {
-        let (count, width) = (degree.count(), degree.t + 1);
-        let middle = self.middle;
-        // The parts of `r - W X0` and W in one differenced coefficient: a sum of `share` times pole.
-        let of = |terms: &[(f64, usize)]| {
-            let sum = |c: usize| terms.iter().map(|&(f, k)| f * poles[c * count + k]).sum::<f64>();
-            let w = if rational { sum(3) } else { terms.iter().map(|&(f, _)| f).sum() };
-            (norm([0, 1, 2].map(|c| sum(c) - w * middle[c])), w.abs())
-        };
-        let (n, m) = (degree.s as f64, degree.t as f64);
-        let mut second = [(0.0f64, 0.0f64); 3];
-        let mut first = [0.0f64; 2];
-        let (mut least, mut reach) = (f64::INFINITY, 0.0f64);
-        let raise = |to: &mut (f64, f64), (a, b): (f64, f64), by: f64| {
-            *to = (to.0.max(by * a), to.1.max(by * b));
-        };
-        for k in 0..count {
-            let (i, j) = (k / width, k % width);
-            let (distance, w) = of(&[(1.0, k)]);
-            (least, reach) = (least.min(w), reach.max(distance / w));
-            if i < degree.s {
-                first[0] = first[0].max(0.5 * n * of(&[(1.0, k + width), (-1.0, k)]).1);
-            }
-            if j < degree.t {
-                first[1] = first[1].max(0.5 * m * of(&[(1.0, k + 1), (-1.0, k)]).1);
-            }
-            if i + 2 <= degree.s {
-                let terms = [(1.0, k), (-2.0, k + width), (1.0, k + 2 * width)];
-                raise(&mut second[0], of(&terms), 0.25 * n * (n - 1.0));
-            }
-            if i < degree.s && j < degree.t {
-                let terms = [(1.0, k), (-1.0, k + width), (-1.0, k + 1), (1.0, k + width + 1)];
-                raise(&mut second[1], of(&terms), 0.25 * n * m);
-            }
-            if j + 2 <= degree.t {
-                let terms = [(1.0, k), (-2.0, k + 1), (1.0, k + 2)];
-                raise(&mut second[2], of(&terms), 0.25 * m * (m - 1.0));
-            }
-        }
-        if !rational {
-            self.most_bent = second.map(|(of_r, _)| of_r);
-            return;
-        }
-        let speed = self.edges.map(|e| norm(e) + self.slope);
-        let turns = [
-            2.0 * first[0] * speed[0],
-            first[0] * speed[1] + first[1] * speed[0],
-            2.0 * first[1] * speed[1],
-        ];
-        for k in 0..3 {
-            self.most_bent[k] = (second[k].0 + turns[k] + second[k].1 * reach) / least;
+    /// Direction in which halving straightens the cell more: 0 or 1.
+    pub fn more_crooked(&self) -> usize {
+        let [a, b] = self.gains;
+        if a < b || b < a {
+            usize::from(b > a)
+        } else {
+            usize::from(norm(self.edges[1]) > norm(self.edges[0]))
         }
     }
 
@@ -330,7 +464,8 @@ impl Cell {
         if (0..2).any(|k| at[k].abs() - reach[k] > 1.0) {
             return Meeting::None;
         }
-        let zero = Zero { at, reach, deviation: lengths[0].max(lengths[1]) * self.slope };
+        let deviation = lengths[0] * self.slopes[0] + lengths[1] * self.slopes[1];
+        let zero = Zero { at, reach, deviation };
         if zero.deviation <= MOST_DEVIATION {
             return Meeting::Once(zero);
         }
@@ -365,7 +500,7 @@ mod tests {
                     [0, 1, 2].map(|k| cell.middle[k] + a * cell.edges[0][k] + b * cell.edges[1][k]);
                 assert!(norm(sub(x, model)) <= cell.off);
                 let slope = [0.5, 0.0, 0.125 * s];
-                assert!(norm(sub(slope, cell.edges[0])) <= cell.slope);
+                assert!(norm(sub(slope, cell.edges[0])) <= cell.slopes[0]);
             }
         }
         let axis = Axis::new([0.3, 0.6, 0.0], [0.0, 0.0, 1.0]);

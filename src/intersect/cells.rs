@@ -2,7 +2,7 @@
 
 use super::cell::{Axis, Cell, MOST_DEVIATION, ROUNDING, Zero};
 use crate::bezier::cut_2d;
-use crate::bounds::{Aabb, HALF_ULP, Vector, add, norm};
+use crate::bounds::{Aabb, HALF_ULP, Vector, add};
 use crate::error::Error;
 use crate::index::{Poll, SurfaceIndex};
 use crate::simd::{Kernel, Lanes, Simd};
@@ -21,6 +21,9 @@ const CALM: f64 = 0.2;
 
 /// Most cells, unless there are more patches.
 const MOST_CELLS: usize = 1 << 19;
+
+/// Work that rational cells may take, in squares of their number of poles: their bounds are products of nets.
+const MOST_WORK: usize = 1 << 28;
 
 /// Most halvings of a patch.
 const DEEPEST: u32 = 12;
@@ -45,7 +48,7 @@ pub struct Packet {
     middle: [[f64; WIDTH]; 3],
     edges: [[[f64; WIDTH]; 3]; 2],
     off: [f64; WIDTH],
-    slope: [f64; WIDTH],
+    slopes: [[f64; WIDTH]; 2],
 }
 
 impl Packet {
@@ -53,7 +56,7 @@ impl Packet {
         middle: [[0.0; WIDTH]; 3],
         edges: [[[0.0; WIDTH]; 3]; 2],
         off: [f64::NEG_INFINITY; WIDTH],
-        slope: [0.0; WIDTH],
+        slopes: [[0.0; WIDTH]; 2],
     };
 
     fn set(&mut self, lane: usize, cell: &Cell) {
@@ -62,7 +65,8 @@ impl Packet {
             self.edges[0][c][lane] = cell.edges[0][c];
             self.edges[1][c][lane] = cell.edges[1][c];
         }
-        (self.off[lane], self.slope[lane]) = (cell.off, cell.slope);
+        self.off[lane] = cell.off;
+        (self.slopes[0][lane], self.slopes[1][lane]) = (cell.slopes[0], cell.slopes[1]);
     }
 }
 
@@ -146,7 +150,8 @@ impl Cells {
             bends: rest.bends,
             most_bent: rest.most_bent,
             off: packet.off[lane],
-            slope: packet.slope[lane],
+            slopes: [packet.slopes[0][lane], packet.slopes[1][lane]],
+            gains: [0.0; 2],
         }
     }
 
@@ -169,7 +174,9 @@ impl Cells {
 /// [`Error::OutOfMemory`], [`Error::Cancelled`].
 pub fn cells_of(index: &SurfaceIndex, poll: Poll) -> Result<Cells, Error> {
     let (mut packets, mut rest, mut boxes) = (Vec::new(), Vec::new(), Vec::new());
-    let most = (MOST_CELLS / index.patches.len().max(1)).max(1);
+    let each = if index.rational { index.degree.count().pow(2) } else { 1 };
+    let all = MOST_CELLS.min(MOST_WORK / each);
+    let most = (all / index.patches.len().max(1)).max(1);
     let deepest = DEEPEST.min(most.ilog2());
     let mut order = Vec::with_capacity(index.patches.len());
     in_order(
@@ -185,12 +192,14 @@ pub fn cells_of(index: &SurfaceIndex, poll: Poll) -> Result<Cells, Error> {
         }
         let mut waiting = vec![([0.0, 1.0, 0.0, 1.0], 0)];
         while let Some((area, depth)) = waiting.pop() {
-            let (cell, aabb) = model(index, patch, area, &mut net);
+            let (mut cell, aabb) = model(index, patch, area, &mut net);
             if depth < deepest && cell.crookedness() > CALM {
                 let [a, b] = halves(&cell, area);
                 waiting.extend([(b, depth + 1), (a, depth + 1)]);
                 continue;
             }
+            let of = &index.patches[patch];
+            cell.bound_bends(&net, index.degree, index.rational, (of.center, of.radius));
             let lane = rest.len() % WIDTH;
             rest.try_reserve(1).map_err(|_| Error::OutOfMemory)?;
             if lane == 0 {
@@ -237,13 +246,9 @@ pub fn model(
     (cell, aabb.grown(cell.off.min(1e-12) + 64.0 * HALF_ULP))
 }
 
-/// The two halves of an area, across the direction in which the cell bends more.
+/// The two halves of an area, across the direction in which the cell is the more crooked.
 pub fn halves(cell: &Cell, area: [f64; 4]) -> [[f64; 4]; 2] {
-    let [aa, ab, bb] = cell.bends.map(norm);
-    let lengths = cell.edges.map(norm);
-    let (s, t) = (aa + 0.5 * ab, bb + 0.5 * ab);
-    let along_t = if s == t { lengths[1] > lengths[0] } else { t > s };
-    let k = usize::from(along_t);
+    let k = cell.more_crooked();
     let middle = 0.5 * (area[2 * k] + area[2 * k + 1]);
     let mut out = [area; 2];
     out[0][2 * k + 1] = middle;
@@ -391,17 +396,17 @@ fn meet<S: Simd>(cells: &Cells, number: u32, beam: &Beam, out: &mut Vec<Candidat
     let rounding = S::F8::splat(ROUNDING) * (one + S::F8::splat(4.0) * (size * d).abs());
     let mut at = [zero; 2];
     let mut reach = [zero; 2];
-    let mut longest = zero;
+    let mut deviation = zero;
     for k in 0..2 {
         at[k] = zero - (y[k][0] * c[0] + y[k][1] * c[1]);
         let length = (y[k][0] * y[k][0] + y[k][1] * y[k][1]).sqrt() * more;
-        longest = longest.max(length);
+        deviation = deviation + length * S::F8::load(&packet.slopes[k]);
         reach[k] = length * off + rounding;
         beside |= turns & one.less(at[k].abs() - reach[k]);
     }
     let mut left = !beside & 0xff;
     let (at, reach) = ([at[0].array(), at[1].array()], [reach[0].array(), reach[1].array()]);
-    let deviation = (longest * S::F8::load(&packet.slope)).array();
+    let deviation = deviation.array();
     while left != 0 {
         let lane = left.trailing_zeros();
         left &= left - 1;
