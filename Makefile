@@ -6,22 +6,26 @@ JOBS   ?= $(shell nproc 2>/dev/null || echo 2)
 SEED    ?= 1
 QUERIES ?= 10000000
 WEIGHTS ?= 10000
+RUNS    ?= 3
+PLACES  ?= 1000000
 THREADS ?= $(JOBS)
 CASES   ?= ../shared/cases
 OCCT_PACKAGES = libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev
 
-.PHONY: help build test test-rust test-c test-python test-freecad stress weights-stress demo demo-weights compare-occt compare-fit compare-intersect bench bench-drivers bench-instructions install deb abi-baseline clean
+.PHONY: help build test test-rust test-c test-python test-freecad stress weights-stress trims-stress demo demo-weights compare-occt compare-fit compare-intersect bench bench-drivers bench-instructions install deb abi-baseline clean
 
 help:
 	@echo "make build             build the library, shared and static, into $(BUILD)/lib"
 	@echo "make test              run every test; also test-rust, test-c, test-python, test-freecad"
 	@echo "make stress            ask QUERIES=10000000 difficult queries, each checked; also SEED, THREADS"
 	@echo "make weights-stress    find weights for WEIGHTS=10000 random polygons with wishes, each checked (minutes); also SEED"
+	@echo "make trims-stress      trimmed surfaces: classification of PLACES=1000000 places against exact arithmetic, a million places of"
+	@echo "                       Algorithm 3, a thousand spheres to NURBS and back, relations, pull-back, faces of OpenCASCADE (minutes)"
 	@echo "make demo              run the demonstration (a minute); pictures go to demo-out/"
 	@echo "make demo-weights      the part of it that finds weights from wished distances, with two figures"
 	@echo "make compare-occt      compare the extrema with OpenCASCADE 7.6 on the cases in $(CASES) (minutes)"
 	@echo "make compare-fit       fit surfaces to grids of 100,000 points, beside OpenCASCADE (three minutes)"
-	@echo "make compare-intersect rays, 200 pairs of faces, contour lines, hits of curves, beside OpenCASCADE, CGAL and SISL (ten minutes)"
+	@echo "make compare-intersect intersect pairs of surfaces, faces of solids, stacks of planes, rays beside OpenCASCADE, SISL and CGAL (ten minutes); RUNS=3"
 	@echo "make bench             time against OpenCASCADE, SISL and CGAL on the cases in $(CASES) (ten minutes); tables and"
 	@echo "                       pictures go to bench-out/; BENCH_QUICK=1 takes a fifth of the cases (two minutes)"
 	@echo "make bench-instructions  count instructions per query with callgrind, beside docs/instructions.csv; RECORD=1 appends"
@@ -107,6 +111,19 @@ stress:
 weights-stress:
 	$(CARGO) bench --locked --bench weights -- seed=$(SEED) count=$(WEIGHTS)
 
+# Figures of docs/trims.md. What needs CGAL or OpenCASCADE is left out without them.
+trims-stress:
+	$(call want,libcgal-dev)
+	$(call want,$(OCCT_PACKAGES))
+	$(CARGO) test --release --locked --test matching -- --ignored --nocapture
+	$(CARGO) test --release --locked --test trims --test pullback --test face_supports --test trim_recut -- --nocapture
+	$(CARGO) test --release --locked --lib transform:: -- --nocapture
+	$(call configure,ON)
+	cmake --build $(BUILD) -j $(JOBS)
+	for program in "reference/reference_faces $(PLACES)" "occt/occt_faces 50" occt/occt_trims; do \
+	  if [ -x $(BUILD)/ctests/$${program%% *} ]; then echo "$$program" && $(BUILD)/ctests/$$program || exit 1; \
+	  else echo "left out: $$program"; fi; done
+
 demo-weights:
 	$(call need,cmake)
 	$(call configure,OFF)
@@ -121,6 +138,7 @@ demo: demo-weights
 	$(BUILD)/examples/first_query
 	$(BUILD)/examples/paper_example
 	mkdir -p demo-out
+	$(BUILD)/examples/trims demo-out
 	$(BUILD)/examples/propeller demo-out
 
 compare-occt: build
@@ -135,15 +153,18 @@ compare-fit: build
 	cmake --build $(BUILD)/compare-occt -j $(JOBS) --target compare_fit
 	$(BUILD)/compare-occt/compare_fit
 
+# A library that cannot be had is left out.
 compare-intersect: build
-	$(call need,cmake g++,$(OCCT_PACKAGES))
+	$(call need,cmake g++)
+	-$(call need,,$(OCCT_PACKAGES))
 	-$(call need,,libcgal-dev)
 	-$(call need,,libsisl-dev)
-	cmake -S compare/intersect -B $(BUILD)/intersect -DFOOTPOINT_LIB="$(abspath $(BUILD))/lib"
-	cmake --build $(BUILD)/intersect -j $(JOBS)
-	if [ -x $(BUILD)/intersect/rays ]; then $(BUILD)/intersect/rays "$(CASES)"; fi
-	$(BUILD)/intersect/stacks "$(CASES)"
-	$(BUILD)/intersect/pairs 200 1 $(BUILD)/intersect/pairs.csv
+	cmake -S compare/intersect -B $(BUILD)/compare-intersect -DFOOTPOINT_LIB="$(abspath $(BUILD))/lib"
+	cmake --build $(BUILD)/compare-intersect -j $(JOBS)
+	$(BUILD)/compare-intersect/pairs $(RUNS)
+	if [ -x $(BUILD)/compare-intersect/rays ]; then $(BUILD)/compare-intersect/rays "$(CASES)"; fi
+	if [ -x $(BUILD)/compare-intersect/stacks ]; then $(BUILD)/compare-intersect/stacks "$(CASES)"; fi
+	if [ -x $(BUILD)/compare-intersect/faces ]; then $(BUILD)/compare-intersect/faces 200 1 $(BUILD)/compare-intersect/faces.csv; fi
 
 # A library that cannot be had is left out, and the tables say so.
 bench-drivers: build

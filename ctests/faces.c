@@ -43,7 +43,7 @@ static fpt_face *triangle_with_hole(void) {
     data.loop_count = 2;
     data.coedge_counts = counts;
     data.pcurves = pcurves;
-    CHECK_OK(fpt_face_new(&data, &face));
+    CHECK_OK(fpt_face_new(&data, NULL, &face));
     /* What it was made from may go. */
     fpt_curve_free(loops[0]);
     fpt_curve_free(loops[1]);
@@ -148,38 +148,164 @@ static void a_lifted_curve_is_pulled_back_to_itself(void) {
 static void faces_of_trimmed_surfaces_are_those_of_their_splines(void) {
     const double uv[] = {0.5, 0.5, 0, 0.3, 1, 1}, point[] = {1.5, 1.5, 4};
     fpt_surface *surface = hill();
-    fpt_support *spline = NULL, *sphere = NULL;
-    fpt_trim *trim = NULL, *whole_sphere = NULL;
-    fpt_face *face = NULL, *none = NULL;
-    fpt_elementary_data data;
+    fpt_support *spline = NULL;
+    fpt_trim *trim = NULL;
+    fpt_face *face = NULL;
     fpt_face_place places[3];
     fpt_foot_point foot, same;
     CHECK_OK(fpt_support_new(surface, &spline));
     CHECK_OK(fpt_trim_whole(spline, &trim));
-    CHECK_OK(fpt_face_of_trim(trim, &face));
+    CHECK_OK(fpt_face_of_trim(trim, NULL, &face));
     CHECK_OK(fpt_face_classify(face, uv, 3, NULL, places));
     CHECK(places[0].standing == FPT_FACE_INSIDE && places[1].standing == FPT_FACE_ON_EDGE);
     CHECK(places[2].standing == FPT_FACE_ON_EDGE);
     CHECK_OK(fpt_face_closest(face, point, 1, NULL, &foot, places));
     CHECK_OK(fpt_surface_closest(surface, point, 1, NULL, &same));
     CHECK(foot.distance == same.distance && foot.lower_bound == same.lower_bound);
+    fpt_trim_free(trim);
+    fpt_support_free(spline);
+    fpt_surface_free(surface);
+    fpt_face_free(face);
+}
+
+static const double turn = 6.28318530717958647693;
+
+static void faces_of_elementary_surfaces_answer_in_angles(void) {
+    const double uv[] = {1, 0.3, 0, 0.5, 2, 1.57079632679489661923, 1, 3}, point[] = {0.6, 0.8, 0.5};
+    fpt_elementary_data data;
+    fpt_support *sphere = NULL;
+    fpt_trim *trim = NULL;
+    fpt_face *face = NULL;
+    fpt_face_place places[4];
+    fpt_foot_point foot;
+    fpt_foot_set *set = NULL;
+    size_t count = 0;
     memset(&data, 0, sizeof data);
     data.struct_size = sizeof data;
     data.kind = FPT_ELEMENTARY_SPHERE;
-    data.domain[1] = 1;
-    data.domain[3] = 1;
+    data.domain[1] = turn;
+    data.domain[2] = -turn / 4;
+    data.domain[3] = turn / 4;
     data.x[0] = data.y[1] = data.z[2] = data.first = 1;
     CHECK_OK(fpt_support_elementary(&data, &sphere));
-    CHECK_OK(fpt_trim_whole(sphere, &whole_sphere));
-    CHECK_ERROR(fpt_face_of_trim(whole_sphere, &none), FPT_UNSUPPORTED, "not a spline");
-    CHECK_ERROR(fpt_face_of_trim(NULL, &none), FPT_NULL_ARGUMENT, "trim");
-    CHECK(none == NULL);
+    CHECK_OK(fpt_trim_whole(sphere, &trim));
+    CHECK_OK(fpt_face_of_trim(trim, NULL, &face));
     fpt_trim_free(trim);
-    fpt_trim_free(whole_sphere);
-    fpt_support_free(spline);
     fpt_support_free(sphere);
-    fpt_surface_free(surface);
+    CHECK_OK(fpt_face_classify(face, uv, 4, NULL, places));
+    CHECK(places[0].standing == FPT_FACE_INSIDE && places[0].flags == 0);
+    CHECK(places[1].standing == FPT_FACE_ON_EDGE && places[2].standing == FPT_FACE_ON_EDGE);
+    CHECK(places[3].standing == FPT_FACE_OUTSIDE);
+    CHECK_OK(fpt_face_closest(face, point, 1, NULL, &foot, places));
+    CHECK_NEAR(foot.u, atan2(0.8, 0.6), 1e-12);
+    CHECK_NEAR(foot.v, atan2(0.5, 1), 1e-12);
+    CHECK_NEAR(foot.distance, sqrt(1.25) - 1, 1e-12);
+    CHECK(!(foot.flags & FPT_FOOT_NOT_PROVEN) && places[0].standing == FPT_FACE_INSIDE);
+    CHECK_OK(fpt_face_preimage(face, foot.point, 0, NULL, &set));
+    CHECK_OK(fpt_foot_set_count(set, &count));
+    CHECK(count == 1);
+    fpt_foot_set_free(set);
     fpt_face_free(face);
+}
+
+/* A paraboloid z = u^2 + v^2 over the square of 2 x 2. */
+static int32_t bowl(void *user, double u, double v, uint32_t order, double *out) {
+    const double values[] = {u, v, u * u + v * v, 1, 0, 2 * u, 0, 1, 2 * v, 0, 0, 2, 0, 0, 0, 0, 0, 2};
+    const size_t rows[] = {1, 3, 6};
+    (void)user;
+    memcpy(out, values, 3 * rows[order] * sizeof(double));
+    return (int32_t)order;
+}
+
+static void faces_of_functions_say_what_is_proven(void) {
+    static const double outer[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0};
+    const double uv[] = {0.3, 0.3, 0.9, 0.9, 0.5, 0.5}, point[] = {0.2, 0.3, 2};
+    for (int with_bounds = 0; with_bounds < 2; with_bounds++) {
+        fpt_surface_callback data;
+        fpt_surface *surface = NULL;
+        fpt_curve *loop = polygon(outer, 4);
+        const fpt_curve *pcurves[1];
+        const size_t counts[] = {1};
+        fpt_face_data face_data;
+        fpt_face *face = NULL;
+        fpt_face_place places[3];
+        fpt_foot_point foot;
+        memset(&data, 0, sizeof data);
+        data.struct_size = sizeof data;
+        data.evaluate = bowl;
+        data.domain[0] = data.domain[2] = -1;
+        data.domain[1] = data.domain[3] = 1;
+        if (with_bounds) {
+            data.speed_bounds[0] = data.speed_bounds[1] = 2.3;
+            data.second_bounds[0] = data.second_bounds[2] = 2;
+            data.second_bounds[1] = 0.001;
+        }
+        CHECK_OK(fpt_surface_from_callback(&data, &surface));
+        memset(&face_data, 0, sizeof face_data);
+        face_data.struct_size = sizeof face_data;
+        face_data.surface = surface;
+        face_data.loop_count = 1;
+        face_data.coedge_counts = counts;
+        face_data.pcurves = pcurves;
+        pcurves[0] = loop;
+        CHECK_OK(fpt_face_new(&face_data, NULL, &face));
+        fpt_surface_free(surface);
+        fpt_curve_free(loop);
+        CHECK_OK(fpt_face_classify(face, uv, 3, NULL, places));
+        CHECK(places[0].standing == FPT_FACE_INSIDE && places[1].standing == FPT_FACE_OUTSIDE);
+        CHECK(places[2].standing == FPT_FACE_ON_EDGE);
+        CHECK(with_bounds ? places[0].flags == 0 : places[0].flags == FPT_STANDING_NOT_PROVEN || places[0].flags == 0);
+        CHECK_OK(fpt_face_closest(face, point, 1, NULL, &foot, places));
+        CHECK(with_bounds || (foot.flags & FPT_FOOT_NOT_PROVEN && places[0].flags == FPT_STANDING_NOT_PROVEN));
+        CHECK(foot.lower_bound <= foot.distance);
+        fpt_face_free(face);
+    }
+}
+
+static int told_times, told_total;
+static void tell(void *user, size_t done, size_t total) {
+    CHECK(user == &told_times && done <= total);
+    told_times++;
+    told_total = (int)total;
+}
+static int stop_later(void *user) { return user == &told_times && told_times > 1; }
+
+static void making_a_face_can_be_stopped_watched_and_limited(void) {
+    fpt_surface *surface = hill();
+    fpt_support *support = NULL;
+    fpt_trim *trim = NULL;
+    fpt_face *face = NULL;
+    fpt_face_options options;
+    CHECK_OK(fpt_support_new(surface, &support));
+    CHECK_OK(fpt_trim_whole(support, &trim));
+    fpt_face_options_init(&options, sizeof options);
+    CHECK(options.struct_size == sizeof options && options.budget == 0 && options.should_stop == NULL);
+    options.progress = tell;
+    options.user = &told_times;
+    CHECK_OK(fpt_face_of_trim(trim, &options, &face));
+    CHECK(told_times >= 5 && told_total == 4);
+    fpt_face_free(face);
+    face = NULL;
+    told_times = 0;
+    options.should_stop = stop_later;
+    CHECK_STATUS(fpt_face_of_trim(trim, &options, &face), FPT_CANCELLED);
+    CHECK(face == NULL);
+    fpt_face_options_init(&options, sizeof options);
+    options.budget = 1;
+    CHECK_ERROR(fpt_face_of_trim(trim, &options, &face), FPT_UNSUPPORTED, "budget: 1");
+    options.struct_size = 3;
+    CHECK_ERROR(fpt_face_of_trim(trim, &options, &face), FPT_INVALID_ARGUMENT, "struct_size");
+    /* A caller of a shorter struct. */
+    options.struct_size = offsetof(fpt_face_options, should_stop);
+    options.budget = 0;
+    CHECK_OK(fpt_face_of_trim(trim, &options, &face));
+    fpt_face_free(face);
+    CHECK_ERROR(fpt_face_of_trim(NULL, NULL, &face), FPT_NULL_ARGUMENT, "trim");
+    CHECK_ERROR(fpt_face_of_trim(trim, NULL, NULL), FPT_NULL_ARGUMENT, "out");
+    fpt_face_options_init(NULL, 100);
+    fpt_trim_free(trim);
+    fpt_support_free(support);
+    fpt_surface_free(surface);
 }
 
 static int stop_at_once(void *user) {
@@ -241,27 +367,27 @@ static void what_is_wrong_is_named(void) {
     CHECK_ERROR(fpt_pcurve_deviation(surface, leaves, line, &told), FPT_INVALID_ARGUMENT, "leaves the domain");
 
     memset(&data, 0, sizeof data);
-    CHECK_STATUS(fpt_face_new(&data, &face), FPT_INVALID_ARGUMENT);
+    CHECK_STATUS(fpt_face_new(&data, NULL, &face), FPT_INVALID_ARGUMENT);
     data.struct_size = sizeof data;
-    CHECK_ERROR(fpt_face_new(&data, &face), FPT_NULL_ARGUMENT, "surface");
+    CHECK_ERROR(fpt_face_new(&data, NULL, &face), FPT_NULL_ARGUMENT, "surface");
     data.surface = surface;
-    CHECK_ERROR(fpt_face_new(&data, &face), FPT_INVALID_ARGUMENT, "loops");
+    CHECK_ERROR(fpt_face_new(&data, NULL, &face), FPT_INVALID_ARGUMENT, "loops");
     data.loop_count = 2;
-    CHECK_ERROR(fpt_face_new(&data, &face), FPT_NULL_ARGUMENT, "coedge_counts");
+    CHECK_ERROR(fpt_face_new(&data, NULL, &face), FPT_NULL_ARGUMENT, "coedge_counts");
     data.coedge_counts = counts;
-    CHECK_ERROR(fpt_face_new(&data, &face), FPT_NULL_ARGUMENT, "pcurves");
+    CHECK_ERROR(fpt_face_new(&data, NULL, &face), FPT_NULL_ARGUMENT, "pcurves");
     data.pcurves = pcurves;
     pcurves[0] = line;
     pcurves[1] = NULL;
-    CHECK_ERROR(fpt_face_new(&data, &face), FPT_INVALID_ARGUMENT, "pcurve 0 of loop 1 is NULL");
+    CHECK_ERROR(fpt_face_new(&data, NULL, &face), FPT_INVALID_ARGUMENT, "pcurve 0 of loop 1 is NULL");
     pcurves[1] = in_space;
-    CHECK_ERROR(fpt_face_new(&data, &face), FPT_INVALID_ARGUMENT, "pcurve 0 of loop 1");
+    CHECK_ERROR(fpt_face_new(&data, NULL, &face), FPT_INVALID_ARGUMENT, "pcurve 0 of loop 1");
     pcurves[1] = leaves;
-    CHECK_ERROR(fpt_face_new(&data, &face), FPT_INVALID_ARGUMENT, "loop 1");
+    CHECK_ERROR(fpt_face_new(&data, NULL, &face), FPT_INVALID_ARGUMENT, "loop 1");
     counts[1] = SIZE_MAX;
-    CHECK_ERROR(fpt_face_new(&data, &face), FPT_INVALID_ARGUMENT, "coedge_counts");
+    CHECK_ERROR(fpt_face_new(&data, NULL, &face), FPT_INVALID_ARGUMENT, "coedge_counts");
     counts[0] = 0;
-    CHECK_STATUS(fpt_face_new(&data, &face), FPT_INVALID_ARGUMENT);
+    CHECK_STATUS(fpt_face_new(&data, NULL, &face), FPT_INVALID_ARGUMENT);
     CHECK(face == NULL);
 
     fpt_query_options_init(&query, sizeof query);
@@ -293,6 +419,9 @@ int main(void) {
     RUN(nearest_points_stay_on_the_face);
     RUN(preimages_are_those_of_the_face);
     RUN(faces_of_trimmed_surfaces_are_those_of_their_splines);
+    RUN(faces_of_elementary_surfaces_answer_in_angles);
+    RUN(faces_of_functions_say_what_is_proven);
+    RUN(making_a_face_can_be_stopped_watched_and_limited);
     RUN(a_lifted_curve_is_pulled_back_to_itself);
     RUN(what_is_wrong_is_named);
     return check_report("faces");

@@ -292,7 +292,139 @@ static void nonsense_is_refused_by_name(void) {
     fpt_curve_free(curve);
 }
 
+/* Numbers that programs hand over by mistake, and plain ones. */
+static double odd(uint32_t *seed) {
+    static const double values[] = {0, -0.0, 1, -1, 1e-3, 0.5, 2, 1e-320, 1e-200, 1e200, 1.7976931348623157e308, INFINITY, -INFINITY, NAN};
+    *seed = *seed * 1664525u + 1013904223u;
+    return values[(*seed >> 16) % COUNT_OF(values)];
+}
+
+/* Mostly the default of an option; now and then something odd, so that more than the first check is reached. */
+static int now_and_then(uint32_t *seed) {
+    *seed = *seed * 1664525u + 1013904223u;
+    return (*seed >> 16) % 6 == 0;
+}
+
+static void odd_options_never_break_anything(void) {
+    fpt_curve *curve = wavy(), *faired_curve = NULL;
+    fpt_surface *surface = bumpy(), *faired_surface = NULL;
+    uint32_t seed = 12345;
+    size_t done = 0, refused = 0;
+    for (int round = 0; round < 400; round++) {
+        fpt_fair_options options = fairing(2e-3);
+        fpt_inspect_options inspect;
+        fpt_inspect_range range;
+        fpt_inspect_set *set = NULL;
+        fpt_inspect_distance there, back;
+        fpt_fair_report *report = NULL;
+        size_t fixed[2];
+        double through[2], knots[2];
+        fpt_status status;
+        options.steps = 4;
+        if (now_and_then(&seed)) options.deviation = odd(&seed);
+        if (now_and_then(&seed)) options.strain = odd(&seed);
+        if (now_and_then(&seed)) options.jerk = odd(&seed);
+        if (now_and_then(&seed)) options.distance = odd(&seed);
+        if (now_and_then(&seed)) options.method = seed >> 30;
+        if (now_and_then(&seed)) options.by_length = seed >> 30;
+        if (now_and_then(&seed)) options.reserved = seed >> 31;
+        if (now_and_then(&seed)) options.ends[seed >> 31] = seed >> 29;
+        if (now_and_then(&seed)) options.borders[seed >> 30] = seed >> 29;
+        if (now_and_then(&seed)) options.length[0] = odd(&seed), options.length[1] = odd(&seed);
+        if (now_and_then(&seed)) options.region[seed >> 30] = odd(&seed);
+        if (now_and_then(&seed)) {
+            fixed[0] = seed >> 26, fixed[1] = seed % 7 == 0 ? (size_t)-1 : 3;
+            options.fixed = fixed, options.fixed_count = 2;
+        }
+        if (now_and_then(&seed)) through[0] = odd(&seed), through[1] = odd(&seed), options.through = through, options.through_count = 2;
+        if (now_and_then(&seed)) knots[0] = odd(&seed), knots[1] = odd(&seed), options.knots = knots, options.knot_count = seed >> 31;
+        status = round % 2 ? fpt_fair_curve(curve, &options, &report) : fpt_fair_surface(surface, &options, &report);
+        CHECK((status == FPT_OK) == (report != NULL));
+        if (status == FPT_OK) {
+            fpt_fair_summary summary;
+            done++;
+            CHECK_OK(fpt_fair_report_summary(report, &summary));
+            CHECK(summary.deviation <= options.deviation && summary.energy_after <= summary.energy_before);
+            if (round % 2) CHECK_OK(fpt_fair_report_curve(report, &faired_curve));
+            else CHECK_OK(fpt_fair_report_surface(report, &faired_surface));
+            fpt_curve_free(faired_curve), fpt_surface_free(faired_surface);
+            faired_curve = NULL, faired_surface = NULL;
+        } else {
+            refused++;
+            CHECK(strlen(fpt_last_error()) > 0);
+        }
+        fpt_fair_report_free(report);
+        fpt_inspect_options_init(&inspect, sizeof inspect);
+        inspect.budget = 50;
+        if (now_and_then(&seed)) inspect.relative = odd(&seed);
+        if (now_and_then(&seed)) inspect.accuracy = odd(&seed);
+        if (now_and_then(&seed)) inspect.domain[seed >> 30] = odd(&seed);
+        if (now_and_then(&seed)) inspect.side = seed >> 30;
+        if (now_and_then(&seed)) inspect.reserved = seed >> 31;
+        status = fpt_inspect_surface_range(surface, seed >> 29, &inspect, &range);
+        if (status == FPT_OK) CHECK(!(range.greatest[0] > range.greatest[1]) && !(range.least[0] > range.least[1]));
+        else CHECK(strlen(fpt_last_error()) > 0);
+        status = fpt_inspect_curve_range(curve, &inspect, &range);
+        CHECK(status == FPT_OK || status == FPT_INVALID_ARGUMENT);
+        status = fpt_inspect_umbilics(surface, &inspect, &set);
+        CHECK(status == FPT_OK || status == FPT_INVALID_ARGUMENT);
+        fpt_inspect_set_free(set);
+        status = fpt_inspect_hausdorff(curve, NULL, NULL, surface, &inspect, &there, &back);
+        CHECK(status == FPT_OK || status == FPT_INVALID_ARGUMENT);
+    }
+    CHECK_MESSAGE(done > 20 && refused > 20, "%zu done, %zu refused", done, refused);
+    fpt_curve_free(curve);
+    fpt_surface_free(surface);
+}
+
+static void short_structs_and_nulls_are_refused(void) {
+    fpt_curve *curve = wavy();
+    fpt_surface *surface = quarter(0);
+    fpt_fair_options options = fairing(1e-3);
+    fpt_inspect_options inspect;
+    fpt_inspect_picture_options picture;
+    fpt_fair_report *report = NULL;
+    fpt_inspect_range range;
+    fpt_inspect_continuity meet;
+    fpt_inspect_distance there, back;
+    uint8_t pixels[3];
+    for (size_t size = 0; size < sizeof options; size += 4) {
+        options = fairing(1e-3), options.struct_size = size;
+        CHECK_ERROR(fpt_fair_curve(curve, &options, &report), FPT_INVALID_ARGUMENT, "struct_size");
+        CHECK_ERROR(fpt_fair_surface(surface, &options, &report), FPT_INVALID_ARGUMENT, "struct_size");
+    }
+    for (size_t size = 0; size < sizeof inspect; size += 4) {
+        fpt_inspect_options_init(&inspect, sizeof inspect);
+        inspect.struct_size = size;
+        CHECK_ERROR(fpt_inspect_surface_range(surface, 4, &inspect, &range), FPT_INVALID_ARGUMENT, "struct_size");
+        CHECK_ERROR(fpt_inspect_border(surface, 0, surface, 1, &inspect, &meet), FPT_INVALID_ARGUMENT, "struct_size");
+    }
+    fpt_inspect_picture_options_init(&picture, sizeof picture);
+    picture.struct_size = 12;
+    CHECK_ERROR(fpt_inspect_picture(surface, &picture, sizeof pixels, pixels, NULL), FPT_INVALID_ARGUMENT, "struct_size");
+    fpt_inspect_options_init(&inspect, sizeof inspect);
+    inspect.side = 3;
+    CHECK_ERROR(fpt_inspect_surface_range(surface, 4, &inspect, &range), FPT_INVALID_ARGUMENT, "side: 3");
+    fpt_fair_options_init(NULL, sizeof options);
+    fpt_inspect_options_init(NULL, sizeof inspect);
+    CHECK_ERROR(fpt_fair_surface(NULL, &options, &report), FPT_NULL_ARGUMENT, "surface");
+    CHECK_ERROR(fpt_fair_report_summary(NULL, NULL), FPT_NULL_ARGUMENT, "report");
+    CHECK_ERROR(fpt_inspect_surface_range(NULL, 4, NULL, &range), FPT_NULL_ARGUMENT, "surface");
+    CHECK_ERROR(fpt_inspect_surface_range(surface, 4, NULL, NULL), FPT_NULL_ARGUMENT, "out");
+    CHECK_ERROR(fpt_inspect_curve_range(curve, NULL, NULL), FPT_NULL_ARGUMENT, "out");
+    CHECK_ERROR(fpt_inspect_comb(curve, NULL, 3, NULL), FPT_NULL_ARGUMENT, "parameters");
+    CHECK_ERROR(fpt_inspect_curvatures(surface, NULL, 3, NULL), FPT_NULL_ARGUMENT, "parameters");
+    CHECK_ERROR(fpt_inspect_picture(surface, NULL, 3 * 640 * 480, NULL, NULL), FPT_NULL_ARGUMENT, "out_pixels");
+    CHECK_ERROR(fpt_inspect_border(surface, 0, NULL, 0, NULL, &meet), FPT_NULL_ARGUMENT, "surface");
+    CHECK_ERROR(fpt_inspect_hausdorff(curve, NULL, curve, NULL, NULL, NULL, &back), FPT_NULL_ARGUMENT, "out_forward");
+    CHECK_ERROR(fpt_inspect_hausdorff(curve, NULL, curve, NULL, NULL, &there, NULL), FPT_NULL_ARGUMENT, "out_backward");
+    fpt_surface_free(surface);
+    fpt_curve_free(curve);
+}
+
 int main(void) {
+    RUN(odd_options_never_break_anything);
+    RUN(short_structs_and_nulls_are_refused);
     RUN(a_wavy_curve_loses_its_inflections_within_the_deviation);
     RUN(a_bumpy_surface_gets_flat_and_keeps_its_borders);
     RUN(curvatures_have_their_closed_forms);

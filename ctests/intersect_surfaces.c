@@ -26,6 +26,7 @@ static void a_cone_is_cut_in_a_circle_and_its_apex_is_a_contact(void) {
     fpt_intersection_branch branch;
     CHECK_OK(fpt_surface_intersection_branch(found, 0, &branch));
     CHECK(branch.is_closed == 1 && branch.is_tangential == 0 && branch.point_count > 8 && branch.gap < 1e-13);
+    CHECK(branch.chord > 0 && branch.chord <= 8e-3 && branch.bounds_overlap == 0);
     CHECK(branch.end_kind[0] == FPT_BRANCH_END_CLOSED && branch.end_kind[1] == FPT_BRANCH_END_CLOSED);
     fpt_intersection_point *points = calloc(branch.point_count, sizeof *points);
     CHECK_OK(fpt_surface_intersection_points(found, 0, branch.point_count, points));
@@ -80,13 +81,97 @@ static void coincident_planes_overlap(void) {
     fpt_surface_intersection *found = NULL;
     double range[8];
     CHECK_OK(fpt_intersect_surfaces(a, b, NULL, &found));
-    CHECK(summary_of(found).overlap_count >= 1);
+    CHECK(summary_of(found).overlap_count >= 1 && summary_of(found).branch_count == 1);
+    fpt_intersection_branch border;
+    CHECK_OK(fpt_surface_intersection_branch(found, 0, &border));
+    CHECK(border.bounds_overlap == 1 && border.is_closed == 1 && border.is_tangential == 1 && isinf(border.chord));
     CHECK_OK(fpt_surface_intersection_overlap(found, 0, range));
     CHECK(range[0] == 0 && range[1] == 1 && range[6] == 0 && range[7] == 1);
     CHECK(fpt_surface_intersection_undecided(found, 0, range) == FPT_INVALID_ARGUMENT);
     fpt_surface_intersection_free(found);
     fpt_surface_free(a);
     fpt_surface_free(b);
+}
+
+/* A tube of radius 1 about z through the plane z = 0, of which a triangle around the corner (1,1) is left: an arc with two ends on trims. */
+static void faces_are_cut_off_at_their_trims_and_split(void) {
+    fpt_surface *plane = plane_at(0);
+    fpt_support *flat = NULL, *round = NULL;
+    fpt_trim *tube = NULL, *triangle = NULL, *parts[4] = {NULL, NULL, NULL, NULL};
+    fpt_surface_intersection *found = NULL;
+    fpt_elementary_data data;
+    memset(&data, 0, sizeof data);
+    data.struct_size = sizeof data;
+    data.kind = FPT_ELEMENTARY_CYLINDER;
+    data.domain[1] = 6.283185307179586;
+    data.domain[2] = -1;
+    data.domain[3] = 1;
+    data.x[0] = data.y[1] = data.z[2] = data.first = 1;
+    CHECK_OK(fpt_support_elementary(&data, &round));
+    CHECK_OK(fpt_trim_whole(round, &tube));
+    CHECK_OK(fpt_support_new(plane, &flat));
+    /* u, v run over [-9, 9]: the triangle (0.1,0.1), (5,0.1), (0.1,5). */
+    const double corners[] = {9.1 / 18, 9.1 / 18, 14.0 / 18, 9.1 / 18, 9.1 / 18, 14.0 / 18, 9.1 / 18, 9.1 / 18};
+    fpt_coedge_data coedge;
+    memset(&coedge, 0, sizeof coedge);
+    coedge.kind = FPT_PCURVE_POLYLINE;
+    coedge.edge = SIZE_MAX;
+    coedge.points = corners;
+    coedge.point_count = 4;
+    fpt_loop_data loop = {0, 0, &coedge, 1};
+    fpt_trim_data made;
+    memset(&made, 0, sizeof made);
+    made.struct_size = sizeof made;
+    made.support = flat;
+    made.loops = &loop;
+    made.loop_count = 1;
+    CHECK_OK(fpt_trim_new(&made, &triangle));
+    CHECK_OK(fpt_intersect_trims(tube, triangle, NULL, &found));
+    fpt_intersection_summary s = summary_of(found);
+    CHECK(s.branch_count == 1 && s.is_proven == 1 && s.undecided_count == 0);
+    fpt_intersection_branch branch;
+    CHECK_OK(fpt_surface_intersection_branch(found, 0, &branch));
+    CHECK(branch.end_kind[0] == FPT_BRANCH_END_TRIM && branch.end_kind[1] == FPT_BRANCH_END_TRIM);
+    CHECK(branch.end_index[0] == 1 && branch.end_index[1] == 1);
+    fpt_intersection_point *points = calloc(branch.point_count, sizeof *points);
+    CHECK_OK(fpt_surface_intersection_points(found, 0, branch.point_count, points));
+    for (size_t i = 0; i < branch.point_count; i++) {
+        CHECK_NEAR(points[i].uv[0], atan2(points[i].point[1], points[i].point[0]), 1e-12);
+        CHECK_NEAR(points[i].uv[1], 0, 1e-12);
+        CHECK(points[i].point[0] >= 0.1 - 1e-11 && points[i].point[1] >= 0.1 - 1e-11);
+    }
+    double low = fmin(points[0].point[0], points[branch.point_count - 1].point[0]);
+    CHECK_NEAR(low, 0.1, 1e-11);
+    free(points);
+    size_t count = 0;
+    CHECK_OK(fpt_surface_intersection_split(found, triangle, 1, 1e-6, 4, parts, &count));
+    CHECK(count == 2);
+    for (size_t i = 0; i < count; i++) fpt_trim_free(parts[i]);
+    /* The arc ends inside the tube: it cuts nothing there. */
+    CHECK_OK(fpt_surface_intersection_split(found, tube, 0, 1e-6, 4, parts, &count));
+    CHECK(count == 1);
+    fpt_trim_free(parts[0]);
+    CHECK_ERROR(fpt_surface_intersection_split(found, triangle, 1, 1e-6, 1, parts, &count), FPT_INVALID_ARGUMENT, "capacity");
+    CHECK_ERROR(fpt_surface_intersection_split(found, triangle, 2, 1e-6, 4, parts, &count), FPT_INVALID_ARGUMENT, "which");
+    CHECK_ERROR(fpt_surface_intersection_split(found, triangle, 1, 0, 4, parts, &count), FPT_INVALID_ARGUMENT, "tolerance");
+    CHECK_ERROR(fpt_surface_intersection_split(found, NULL, 1, 1e-6, 4, parts, &count), FPT_NULL_ARGUMENT, "trim");
+    CHECK_ERROR(fpt_surface_intersection_split(NULL, tube, 0, 1e-6, 4, parts, &count), FPT_NULL_ARGUMENT, "intersection");
+    fpt_surface_intersection_free(found);
+    found = NULL;
+    CHECK_ERROR(fpt_intersect_trims(NULL, triangle, NULL, &found), FPT_NULL_ARGUMENT, "a");
+    CHECK_ERROR(fpt_intersect_trims(tube, NULL, NULL, &found), FPT_NULL_ARGUMENT, "b");
+    CHECK(found == NULL);
+    fpt_intersect_surfaces_options options;
+    fpt_intersect_surfaces_options_init(&options, sizeof options);
+    options.budget = 3;
+    CHECK(fpt_intersect_trims(tube, triangle, &options, &found) == FPT_BUDGET_EXHAUSTED);
+    CHECK(found != NULL && summary_of(found).is_proven == 0 && summary_of(found).undecided_count > 0);
+    fpt_surface_intersection_free(found);
+    fpt_trim_free(tube);
+    fpt_trim_free(triangle);
+    fpt_support_free(flat);
+    fpt_support_free(round);
+    fpt_surface_free(plane);
 }
 
 static int stop_now(void *user) { return *(int *)user; }
@@ -149,6 +234,7 @@ static void budget_stop_and_misuse(void) {
 int main(void) {
     RUN(a_cone_is_cut_in_a_circle_and_its_apex_is_a_contact);
     RUN(coincident_planes_overlap);
+    RUN(faces_are_cut_off_at_their_trims_and_split);
     RUN(budget_stop_and_misuse);
     return check_report("intersect_surfaces");
 }

@@ -252,6 +252,51 @@ static void surfaces_stay_too(void) {
     fpt_surface_free(surface);
 }
 
+static void knot_lines_and_powers_of_surfaces(void) {
+    fpt_surface *surface = patch(), *finer, *back;
+    fpt_knot_line lines[8];
+    double numbers[4 * 31 * 31];
+    const size_t p = 2, q = 3;
+    size_t count = 99;
+    static const double twice[] = {0.5, 0.5}, unit[] = {0, 1, 0, 1}, first[] = {0, 0.5, 0, 2};
+    CHECK_OK(fpt_surface_refine(surface, FPT_DIRECTION_V, twice, 2, &finer));
+    CHECK_OK(fpt_surface_continuity(finer, FPT_DIRECTION_V, 1e-9, 8, lines, &count));
+    CHECK(count >= 1);
+    for (size_t i = 0; i < count; i++) {
+        CHECK(lines[i].gap <= 1e-12 && lines[i].order >= 1);
+        if (lines[i].value == 0.5) CHECK(lines[i].multiplicity >= 2 && lines[i].first_jump <= 1e-11);
+    }
+    CHECK_OK(fpt_surface_continuity(finer, FPT_DIRECTION_V, 1e-9, 0, NULL, &count));
+    CHECK_ERROR(fpt_surface_continuity(finer, 7, 1e-9, 8, lines, &count), FPT_INVALID_ARGUMENT, "direction: 7");
+    CHECK_ERROR(fpt_surface_continuity(finer, 0, NAN, 8, lines, &count), FPT_INVALID_ARGUMENT, "tolerance");
+    CHECK_ERROR(fpt_surface_continuity(finer, 0, 0, 8, NULL, &count), FPT_NULL_ARGUMENT, "out");
+    CHECK_ERROR(fpt_surface_continuity(finer, 0, 0, 8, lines, NULL), FPT_NULL_ARGUMENT, "out_count");
+    CHECK_ERROR(fpt_surface_continuity(NULL, 0, 0, 8, lines, &count), FPT_NULL_ARGUMENT, "surface");
+    fpt_surface_free(finer);
+
+    CHECK_OK(fpt_surface_power(surface, sizeof numbers / sizeof *numbers, numbers, &count));
+    CHECK(count == 4 * 2 * (p + 1) * (q + 1));
+    CHECK_OK(fpt_surface_part(surface, first, &finer));
+    CHECK_OK(fpt_surface_from_power(p, q, first, numbers, &back));
+    CHECK_NEAR(surfaces_apart(finer, back), 0, 1e-12);
+    fpt_surface_free(finer);
+    back = surface;
+    CHECK_ERROR(fpt_surface_power(surface, count - 1, numbers, &count), FPT_INVALID_ARGUMENT, "capacity");
+    CHECK_ERROR(fpt_surface_power(surface, count, NULL, &count), FPT_NULL_ARGUMENT, "out");
+    CHECK_ERROR(fpt_surface_from_power(0, q, unit, numbers, &back), FPT_INVALID_ARGUMENT, "degree_u: 0");
+    CHECK_ERROR(fpt_surface_from_power(p, SIZE_MAX, unit, numbers, &back), FPT_INVALID_ARGUMENT, "degree_v");
+    CHECK_ERROR(fpt_surface_from_power(p, q, NULL, numbers, &back), FPT_NULL_ARGUMENT, "domain");
+    CHECK_ERROR(fpt_surface_from_power(p, q, unit, NULL, &back), FPT_NULL_ARGUMENT, "coefficients");
+    CHECK_ERROR(fpt_surface_from_power(p, q, unit, numbers, NULL), FPT_NULL_ARGUMENT, "out");
+    numbers[0] = INFINITY;
+    CHECK_ERROR(fpt_surface_from_power(p, q, unit, numbers, &back), FPT_INVALID_ARGUMENT, "coefficient 0");
+    numbers[0] = 0;
+    numbers[3] = -1;
+    CHECK_ERROR(fpt_surface_from_power(p, q, unit, numbers, &back), FPT_UNSUPPORTED, "weight");
+    CHECK(back == surface);
+    fpt_surface_free(surface);
+}
+
 static void what_is_refused_is_named_and_writes_nothing(void) {
     static const double bad[] = {0.5, 9}, nan[] = {NAN, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     fpt_curve *curve = circle(), *out = curve, *list[2];
@@ -296,6 +341,7 @@ int main(void) {
     RUN(measures_of_a_circle);
     RUN(curves_become_compatible);
     RUN(surfaces_stay_too);
+    RUN(knot_lines_and_powers_of_surfaces);
     RUN(what_is_refused_is_named_and_writes_nothing);
     return check_report("operate");
 }

@@ -584,6 +584,10 @@ void surfaces_meet_in_branches() {
         const auto curves = found.curves(saddle, flat, i, 1e-7);
         CHECK(curves.error < 1e-7 && curves.part_count == 1 && curves.uv.degree() == 3);
     }
+    const footpoint::support a(saddle), b(flat);
+    const footpoint::trimmed_surface first(a), second(b);
+    const footpoint::surface_intersection faces(first, second);
+    CHECK(faces.size() == found.size() && faces.split(first, 0, 1e-6).size() >= 2);
     const footpoint::surface_intersection same(flat, flat);
     CHECK(same.summary().overlap_count >= 1 && same.overlap(0)[1] > 0);
     bool refused = false;
@@ -682,7 +686,36 @@ void operations_are_those_of_the_c_api() {
     const fpt_estimate u = length.parameter(0.5 * length.total().value);
     CHECK_NEAR(length.at(u.value).value, 0.5 * length.total().value, u.error + length.total().error);
     CHECK(operate::continuity(cubic).size() == 3 && operate::frame(cubic, 0.5).speed > 0);
+    const std::vector<double> powers = operate::power(halves.first);
+    const std::vector<double> first(powers.begin(), powers.begin() + 4 * (long(cubic.degree()) + 1));
+    CHECK(operate::difference(operate::from_power(first, 0, 1), operate::from_power(first, 0, 1)).bound < 1e-12);
     check_thrown([&] { operate::elevate(cubic, 40); }, FPT_INVALID_ARGUMENT, "degree");
+    check_thrown([&] { operate::from_power(added, 0, 1); }, FPT_INVALID_ARGUMENT, "coefficients");
+}
+
+void operations_on_surfaces_are_those_of_the_c_api() {
+    namespace operate = footpoint::operate;
+    const surface ring = footpoint::torus(footpoint::standard_axes, 3, 1, {0, 6}, {0, 6});
+    const auto same = [&](const surface &other) { return operate::difference(ring, other).bound < 1e-12; };
+    for (const std::uint32_t direction : {FPT_DIRECTION_U, FPT_DIRECTION_V}) {
+        const auto halves = operate::split(ring, direction, 0.5);
+        CHECK(same(operate::join({&halves.first, &halves.second}, direction, 1e-9).shape));
+        const auto open = operate::unclamp(ring, direction);
+        CHECK(operate::difference(ring, open.shape).bound <= open.error + 1e-12);
+        const surface faster = operate::reparametrise(ring, direction, 2);
+        CHECK(faster.is_rational() && same(operate::reparametrise(faster, direction, 0.5)));
+        const auto lines = operate::continuity(ring, direction);
+        // The homogeneous pieces of a circle merely join.
+        CHECK(!lines.empty() && lines[0].multiplicity == 2 && lines[0].gap < 1e-12);
+    }
+    CHECK(same(operate::bezier_form(ring)) && same(operate::with_domain(ring, ring.domain())));
+    CHECK(same(operate::affine(ring, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0})));
+    CHECK(same(operate::projective(ring, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1})));
+    const surface flat = footpoint::plane(footpoint::standard_axes, {0, 1, 0, 1});
+    CHECK(operate::make_compatible({&flat, &ring})[0].degree_u() == ring.degree_u());
+    CHECK(operate::difference(flat, operate::from_power(1, 1, operate::power(flat), {0, 1, 0, 1})).bound < 1e-13);
+    check_thrown([&] { operate::continuity(flat, 2); }, FPT_INVALID_ARGUMENT, "direction");
+    check_thrown([&] { operate::from_power(40, 1, {}, {0, 1, 0, 1}); }, FPT_INVALID_ARGUMENT, "coefficients");
 }
 
 } // namespace
@@ -706,6 +739,7 @@ int main() {
     RUN(weights_are_those_of_the_c_api);
     RUN(trims_are_those_of_the_c_api);
     RUN(operations_are_those_of_the_c_api);
+    RUN(operations_on_surfaces_are_those_of_the_c_api);
     RUN(fits_and_constructions_are_those_of_the_c_api);
     RUN(pcurves_and_faces_are_those_of_the_c_api);
     RUN(surfaces_meet_in_branches);

@@ -671,6 +671,17 @@ typedef enum fpt_face_standing {
 } fpt_face_standing;
 
 /**
+ * Bits of fpt_face_place.flags.
+ */
+typedef enum fpt_standing_flag {
+    /**
+     * Whether an edge is within the tolerance is not proven: the surface is a function without a bound of its speed. Sides in the domain
+     * are exact all the same.
+     */
+    FPT_STANDING_NOT_PROVEN = 1,
+} fpt_standing_flag;
+
+/**
  * What an end of a branch is, for fpt_intersection_branch.end_kind.
  */
 typedef enum fpt_branch_end {
@@ -690,6 +701,10 @@ typedef enum fpt_branch_end {
      * An undecided box is there.
      */
     FPT_BRANCH_END_UNDECIDED = 3,
+    /**
+     * A trim: end_index is 0 for one of A, 1 for one of B.
+     */
+    FPT_BRANCH_END_TRIM = 4,
 } fpt_branch_end;
 
 /**
@@ -1826,6 +1841,33 @@ typedef struct fpt_joint {
 } fpt_joint;
 
 /**
+ * How the pieces of a surface meet along a knot line: 32 bytes, frozen.
+ */
+typedef struct fpt_knot_line {
+    /**
+     * The knot; the seam of a closed surface is reported at the end of the domain.
+     */
+    double value;
+    /**
+     * How often it is a knot.
+     */
+    uint32_t multiplicity;
+    /**
+     * The highest order to which all derivatives across the line agree all along it; 0 is a mere join.
+     */
+    uint32_t order;
+    /**
+     * No gap between the pieces is wider, anywhere on the line: the hull of the jump. Of rational surfaces this and the next are of the
+     * homogeneous form, with weights at most 1, around a pole.
+     */
+    double gap;
+    /**
+     * No jump of the first derivative across the line is longer.
+     */
+    double first_jump;
+} fpt_knot_line;
+
+/**
  * How to fit. Fill it with fpt_fit_options_init, then change what matters. All zero after struct_size is the default of everything
  * but the tolerance, which fits need. Grows at the end only.
  */
@@ -1867,7 +1909,8 @@ typedef struct fpt_fit_options {
      */
     uint32_t keep_parameters;
     /**
-     * 1: fpt_surface_fit_grid asks for the feet of all points, too, with proof; 0: distances are those at the parameters.
+     * 1: fpt_surface_fit_grid finds how far the points are from their feet and proves how far the worst is; 0: distances are those at the
+     * parameters.
      */
     uint32_t certify;
     /**
@@ -1897,11 +1940,12 @@ typedef struct fpt_fit_result {
      */
     double worst;
     /**
-     * Proven: some data point is at least that far away. 0 when feet were not asked for.
+     * Proven: some data point is at least that far away. `worst` exceeds it by 1e-10 of the shape's box at most, unless points are
+     * `unproven`. 0 when feet were not asked for.
      */
     double at_least;
     /**
-     * Root of the mean of the squared distances.
+     * Root of the mean of the squared distances from the places that were found.
      */
     double rms;
     /**
@@ -1909,7 +1953,7 @@ typedef struct fpt_fit_result {
      */
     uint64_t worst_index;
     /**
-     * Data points whose distance is an upper bound only: a nearer place was not excluded.
+     * Data points that may be farther away than `at_least`: no nearer place was found, and none excluded.
      */
     uint64_t unproven;
 } fpt_fit_result;
@@ -2180,7 +2224,7 @@ typedef struct fpt_change_summary {
      */
     double deviation;
     /**
-     * Largest distance of the old and the new surface at the places where they were compared.
+     * Largest distance of the old and the new surface at places that belong together.
      */
     double surface_deviation;
     /**
@@ -2188,13 +2232,13 @@ typedef struct fpt_change_summary {
      */
     uint32_t proven;
     /**
-     * 0.
+     * 1: that of the surfaces is proven; 0: it is the largest at 33 x 33 places.
      */
-    uint32_t reserved;
+    uint32_t surface_proven;
 } fpt_change_summary;
 
 /**
- * A report in a few numbers. 48 bytes, frozen.
+ * A report in a few numbers. 56 bytes, frozen.
  */
 typedef struct fpt_trim_summary {
     /**
@@ -2206,9 +2250,14 @@ typedef struct fpt_trim_summary {
      */
     double largest_opening;
     /**
-     * Largest distance of a pcurve's image and its edge, at 33 places and all corners of each coedge; not proven between them.
+     * Largest distance of a pcurve's image and its edge found, at 33 places and all corners of each coedge.
      */
     double largest_gap;
+    /**
+     * Proven: no image of a pcurve and its edge are farther apart, at equal parameters where they share them, else as sets of points.
+     * Infinite where a function takes part, a pcurve leaves the domain, or no bound could be had.
+     */
+    double gap_bound;
     /**
      * How far the segments that stand for curves may be off, a length; part of the tolerance unless a curve is very long.
      */
@@ -2353,6 +2402,33 @@ typedef struct fpt_deviation {
 } fpt_deviation;
 
 /**
+ * How a face is prepared. Fill it with fpt_face_options_init. All zero after struct_size is the default of everything. Grows at the end
+ * only.
+ */
+typedef struct fpt_face_options {
+    /**
+     * sizeof(fpt_face_options), set by fpt_face_options_init.
+     */
+    size_t struct_size;
+    /**
+     * Most spans of the images of all pcurves, which bounds time and memory; 0: 10,000,000. What would take more is FPT_UNSUPPORTED.
+     */
+    uint64_t budget;
+    /**
+     * Asked on the calling thread between pcurves, and every 64 spans of long ones; non-zero ends the call with FPT_CANCELLED. NULL: never.
+     */
+    int (*should_stop)(void *user);
+    /**
+     * Told on the calling thread how many pcurves are done, of how many. NULL: not wanted.
+     */
+    void (*progress)(void *user, size_t done, size_t total);
+    /**
+     * Handed to both as it is.
+     */
+    void *user;
+} fpt_face_options;
+
+/**
  * The input of fpt_face_new. Copied: nothing is borrowed after the call.
  */
 typedef struct fpt_face_data {
@@ -2361,7 +2437,7 @@ typedef struct fpt_face_data {
      */
     size_t struct_size;
     /**
-     * A spline surface.
+     * A surface of any kind.
      */
     const struct fpt_surface *surface;
     /**
@@ -2396,9 +2472,9 @@ typedef struct fpt_face_place {
      */
     uint32_t coedge_index;
     /**
-     * 0.
+     * 0 or FPT_STANDING_NOT_PROVEN.
      */
-    uint32_t reserved;
+    uint32_t flags;
     /**
      * On an edge: the parameter of the pcurve; else NaN.
      */
@@ -2485,13 +2561,25 @@ typedef struct fpt_intersection_branch {
      */
     double gap;
     /**
+     * Proven: between two points the branch stays within this of their chord. Infinite where nothing is proven.
+     */
+    double chord;
+    /**
      * 1: the surfaces touch along it.
      */
     uint32_t is_tangential;
     /**
+     * 1: it bounds an area in which the surfaces coincide; then it is tangential too.
+     */
+    uint32_t bounds_overlap;
+    /**
      * 1: it is a loop; its first point comes again as the last.
      */
     uint32_t is_closed;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
     /**
      * Values of fpt_branch_end, of its beginning and its end.
      */
@@ -2579,6 +2667,14 @@ typedef struct fpt_inspect_options {
      * Handed to should_stop as it is.
      */
     void *user;
+    /**
+     * Ranges: a value of fpt_inspect_side, which extremes must have the gap; bounds of the other one are true, but loose.
+     */
+    uint32_t side;
+    /**
+     * Must be 0.
+     */
+    uint32_t reserved;
 } fpt_inspect_options;
 
 /**
@@ -2746,7 +2842,7 @@ typedef struct fpt_fair_summary {
 } fpt_fair_summary;
 
 /**
- * The least and the greatest value of a quantity, each between two bounds: 88 bytes, frozen.
+ * The least and the greatest value of a quantity, each between two bounds: 96 bytes, frozen.
  */
 typedef struct fpt_inspect_range {
     /**
@@ -2766,10 +2862,15 @@ typedef struct fpt_inspect_range {
      */
     double at_greatest[2];
     /**
-     * Share of the domain of which nothing is proven: beside collapsed edges and cusps, where curvatures are not bounded. The
-     * bounds hold for the rest.
+     * Share of the domain of which nothing is proven: beside tips and cusps, where curvatures are not bounded. The bounds hold for
+     * the rest.
      */
     double excluded;
+    /**
+     * Length. 0: the bounds are those of the shape. Otherwise those of a shape from which no point of this one is farther, which is
+     * rounding: beside a pole the rounding of its coordinates alone makes curvatures infinite.
+     */
+    double moved;
     /**
      * Boxes looked at.
      */
@@ -5451,6 +5552,56 @@ fpt_status fpt_curve_from_power(size_t degree,
                                 struct fpt_curve **out);
 
 /**
+ * How the pieces of a surface meet along its knot lines of a direction inside the domain and, if it is closed there, along the seam.
+ *
+ * @param direction  FPT_DIRECTION_U: lines of constant u; or FPT_DIRECTION_V
+ * @param tolerance  as in fpt_curve_continuity
+ * @param capacity   room in out; one record a knot value is enough
+ * @param out_count  the number of records, also when there is not room for all
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_continuity(const struct fpt_surface *surface,
+                                  uint32_t direction,
+                                  double tolerance,
+                                  size_t capacity,
+                                  struct fpt_knot_line *out,
+                                  size_t *out_count);
+
+/**
+ * The powers of local parameters s and t, each 0 to 1 on every patch: w x, w y, w z, w of s^k t^l of patch (i,j) at
+ * 4 * (((i * patches_v + j) * (degree_u + 1) + k) * (degree_v + 1) + l). As fpt_curve_power.
+ *
+ * @param capacity   room in out, in numbers
+ * @param out_count  how many there are: 4 * patches * (degree_u + 1) * (degree_v + 1); FPT_INVALID_ARGUMENT when there is not room for all
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_power(const struct fpt_surface *surface,
+                             size_t capacity,
+                             double *out,
+                             size_t *out_count);
+
+/**
+ * The Bezier patch of powers of local parameters, 0 at the beginnings of the domain and 1 at its ends.
+ *
+ * @param degree_u      1 to 31
+ * @param degree_v      1 to 31
+ * @param domain        u0,u1,v0,v1
+ * @param coefficients  4 * (degree_u + 1) * (degree_v + 1) numbers: w x, w y, w z, w of s^k t^l at 4 * (k * (degree_v + 1) + l); polynomial:
+ *                      w is 1 for k = l = 0, else 0
+ * @param out           the surface; release it with fpt_surface_free
+ * @return FPT_UNSUPPORTED when a Bezier weight is not positive
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_from_power(size_t degree_u,
+                                  size_t degree_v,
+                                  const double *domain,
+                                  const double *coefficients,
+                                  struct fpt_surface **out);
+
+/**
  * Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.
  * Does nothing when `options` is NULL or struct_size is smaller than a size_t.
  * @since 0.1
@@ -5553,7 +5704,7 @@ fpt_status fpt_surface_interpolate(const double *points,
 /**
  * A surface near a grid of points: knots are added in both directions until no point is farther than the tolerance from the surface at
  * the point's parameters, an upper bound of its distance. Corners are met. Where the tolerance is not reached result->worst is above it.
- * Cost: about 50 ms for 100,000 points; certified, 0.4 s.
+ * Cost: about 15 ms for 100,000 points; certified, 35 ms.
  *
  * @param points   x,y,z of point (i,j) at 3*(i*count_v + j)
  * @param options  must not be NULL: tolerance; degrees, spacing, max_poles, certify, threads and should_stop count
@@ -5894,7 +6045,8 @@ fpt_status fpt_surface_skinned(const struct fpt_curve *const *sections,
  *
  * @param options   must not be NULL: tolerance
  * @param out       the handle; release it with fpt_surface_free
- * @param error     greatest distance from the exact swept surface at dense samples; above the tolerance with max_poles. NULL: not wanted
+ * @param error     no point is farther from the exact swept surface at its parameters, proven; above the tolerance where max_poles or rounding
+ *                  do not allow it, infinite where nothing is proven (rational spines of degrees above 13). NULL: not wanted
  * @param holonomy  radians by which the frame has turned about the tangent after one way round a closed spine; 0 for open ones. NULL: not
  *                  wanted
  * @return FPT_UNSUPPORTED for spines with a corner or that stand still, with the parameter
@@ -6175,6 +6327,24 @@ fpt_status fpt_transform_apply(const struct fpt_transform *transform,
  * @since 0.1
  */
 void fpt_transform_free(struct fpt_transform *transform);
+
+/**
+ * The arc centre + cos t first + sin t second of a circle or an ellipse, as a polynomial spline of its angle t: off by some roundings of its
+ * largest coordinate. For edges and meridians whose parameter is an angle; exact arcs (fpt_curve_arc) have another parameter.
+ *
+ * @param center  3 numbers
+ * @param first   3 numbers: the half diameter of t = 0
+ * @param second  3 numbers: the half diameter of a quarter turn
+ * @param angles  first and last t, increasing, at most a full turn apart
+ * @param out     the handle; release it with fpt_curve_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_curve_arc_by_angle(const double *center,
+                                  const double *first,
+                                  const double *second,
+                                  const double *angles,
+                                  struct fpt_curve **out);
 
 /**
  * A support of a surface, spline or function. The search index is shared with it.
@@ -6561,7 +6731,7 @@ fpt_status fpt_trim_merge(const struct fpt_trim *first,
 
 /**
  * Checks a face: open loops, wrong directions, crossing and touching curves, gaps between curves and edges, curves outside of the domain,
- * containment of loops. Cost: milliseconds.
+ * containment of loops. Cost: milliseconds, some ten where edges have other parameters than their coedges.
  *
  * @param tolerance  length, finite, >= 0; 0: 1e-7 x the diagonal of the surface's box
  * @param out        the report; release it with fpt_trim_report_free
@@ -6751,31 +6921,47 @@ fpt_status fpt_pcurve_deviation(const struct fpt_surface *surface,
                                 struct fpt_deviation *out);
 
 /**
+ * Sets all options to their defaults.
+ *
+ * @param options      room for struct_size bytes
+ * @param struct_size  sizeof(fpt_face_options)
+ * @since 0.1
+ */
+void fpt_face_options_init(struct fpt_face_options *options, size_t struct_size);
+
+/**
  * Prepares a face for queries. The face is where a ray in the domain crosses the loops an odd number of times: their direction
  * does not count, holes are what is inside of two. Cost: that of the surface's index, some microseconds a pcurve, some
  * milliseconds for one whose image must be fitted.
  *
- * @param data  the inputs, copied
- * @param out   the handle; release it with fpt_face_free
- * @return FPT_INVALID_ARGUMENT names loop and pcurve, also for one that leaves the domain
+ * On a surface given by a function what is proven depends on the bounds that it was made with: none of its speed, and no distance
+ * is (FPT_FOOT_NOT_PROVEN, FPT_STANDING_NOT_PROVEN); none of its second derivatives, and not where the nearest point is neither the surface's
+ * nor that of the edges.
+ *
+ * @param data     the inputs, copied
+ * @param options  NULL: the defaults
+ * @param out      the handle; release it with fpt_face_free
+ * @return FPT_INVALID_ARGUMENT names loop and pcurve, also for one that leaves the domain by more than 1e-6 of it
  * @since 0.1
  */
 FPT_MUST_USE
 fpt_status fpt_face_new(const struct fpt_face_data *data,
+                        const struct fpt_face_options *options,
                         struct fpt_face **out);
 
 /**
  * Prepares a trimmed surface for queries: as fpt_face_new, with the surface and the loops of `trim`; its edges in space play no part, the
  * border of a face is the image of its pcurves.
  *
- * @param trim  a trimmed surface over a spline surface; one over an elementary surface or a function is FPT_UNSUPPORTED, see
- *              fpt_trim_to_nurbs
- * @param out   the handle; release it with fpt_face_free. Parameters of answers are those of the surface, those of places the
- *              parameters of the coedges' pcurves; an arc's are those of its NURBS form, the angle at the ends of quarter turns only
+ * @param trim     a trimmed surface over any support
+ * @param options  NULL: the defaults
+ * @param out      the handle; release it with fpt_face_free. Parameters of answers are those of the support (angles of an elementary
+ *                 surface are angles), those of places the parameters of the coedges' pcurves
  * @since 0.1
  */
 FPT_MUST_USE
 fpt_status fpt_face_of_trim(const struct fpt_trim *trim,
+                            const struct fpt_face_options *options,
                             struct fpt_face **out);
 
 /**
@@ -6877,6 +7063,26 @@ fpt_status fpt_intersect_surfaces(const struct fpt_surface *a,
                                   struct fpt_surface_intersection **out);
 
 /**
+ * All that two faces have in common: as fpt_intersect_surfaces of their supports, cut off at their trims (FPT_BRANCH_END_TRIM). A whole
+ * support is a face too: fpt_trim_whole.
+ *
+ * Parameters are those of the supports; elementary ones are intersected in their exact NURBS form. A support given by a function is meshed
+ * and walked along: nothing is proven then, and one undecided box is all of both domains. A face holds its border; what runs along
+ * a trim is kept, and listed as undecided.
+ *
+ * @param a, b     the faces
+ * @param options  NULL: the defaults
+ * @param out      the result; release it with fpt_surface_intersection_free
+ * @return FPT_BUDGET_EXHAUSTED with a result that misses what lies in its undecided boxes
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_intersect_trims(const struct fpt_trim *a,
+                               const struct fpt_trim *b,
+                               const struct fpt_intersect_surfaces_options *options,
+                               struct fpt_surface_intersection **out);
+
+/**
  * Counts and verdicts.
  * @since 0.1
  */
@@ -6952,8 +7158,8 @@ fpt_status fpt_surface_intersection_undecided(const struct fpt_surface_intersect
  * @param part        which part between two seams; beyond the count of parts FPT_INVALID_ARGUMENT
  * @param out_count   the number of parts
  * @param out_curves  3 handles: in space, in A's domain, in B's domain; release each with fpt_curve_free
- * @param out_error   greatest distance that was measured, 16 places a span: of the curve from either surface (certified), and from
- *                    the surface points at its parameters
+ * @param out_error   proven: at equal parameters the curve is nowhere farther from the surface points at its parameters, and so from
+ *                    both surfaces
  * @since 0.1
  */
 FPT_MUST_USE
@@ -6966,6 +7172,25 @@ fpt_status fpt_surface_intersection_curves(const struct fpt_surface_intersection
                                            size_t *out_count,
                                            struct fpt_curve **out_curves,
                                            double *out_error);
+
+/**
+ * The faces into which the branches cut one of the two faces that they came from. Cuts are polylines in its domain and in space, as near as the
+ * chord tolerance made them. Branches that end inside the face, and tangential ones, cut nothing.
+ *
+ * @param trim       the first (which = 0) or the second (which = 1) face of the intersection
+ * @param tolerance  length, > 0: within it ends of branches meet loops and one another
+ * @param capacity   room in out_trims, at least the number of faces, else FPT_INVALID_ARGUMENT with *out_count set
+ * @param out_trims  handles; release each with fpt_trim_free
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_surface_intersection_split(const struct fpt_surface_intersection *intersection,
+                                          const struct fpt_trim *trim,
+                                          uint32_t which,
+                                          double tolerance,
+                                          size_t capacity,
+                                          struct fpt_trim **out_trims,
+                                          size_t *out_count);
 
 /**
  * Releases an intersection. NULL is fine. No other call may use the handle during or after this one.

@@ -933,6 +933,11 @@ struct lift_options : fpt_lift_options {
     lift_options() noexcept : fpt_lift_options() { fpt_lift_options_init(this, sizeof(fpt_lift_options)); }
 };
 
+/** fpt_face_options that begin as the defaults. */
+struct face_options : fpt_face_options {
+    face_options() noexcept : fpt_face_options() { fpt_face_options_init(this, sizeof(fpt_face_options)); }
+};
+
 /** A pcurve that was pulled back, or the image of one, and how far it is proven to be from what it stands for. */
 struct proven_curve {
     curve shape;
@@ -982,7 +987,8 @@ struct face_feet {
 class face {
 public:
     /** As fpt_face_new: the pcurves of each loop in order; surface and pcurves may go before the face does. */
-    face(const surface &shape, span<const std::vector<const curve *>> loops) : handle_(make(shape, loops)) {}
+    face(const surface &shape, span<const std::vector<const curve *>> loops, const fpt_face_options &options = face_options())
+        : handle_(make(shape, loops, options)) {}
 
     /** Takes a handle over. */
     explicit face(fpt_face *handle) noexcept : handle_(handle) {}
@@ -1018,7 +1024,7 @@ private:
         void operator()(fpt_face *handle) const noexcept { fpt_face_free(handle); }
     };
 
-    static fpt_face *make(const surface &shape, span<const std::vector<const curve *>> loops) {
+    static fpt_face *make(const surface &shape, span<const std::vector<const curve *>> loops, const fpt_face_options &options) {
         std::vector<std::size_t> counts;
         std::vector<const fpt_curve *> pcurves;
         for (const std::vector<const curve *> &loop : loops) {
@@ -1032,7 +1038,7 @@ private:
         data.coedge_counts = counts.data();
         data.pcurves = pcurves.data();
         fpt_face *out = nullptr;
-        check(fpt_face_new(&data, &out));
+        check(fpt_face_new(&data, &options, &out));
         return out;
     }
 
@@ -1369,6 +1375,13 @@ private:
 /** Circle forms of u and v, as fpt_support_spline has them. */
 using circle_forms = std::array<std::uint32_t, 2>;
 
+/** An arc with its angle as parameter, as fpt_curve_arc_by_angle. */
+inline curve arc_by_angle(const point &center, const point &first, const point &second, const std::array<double, 2> &angles) {
+    fpt_curve *out = nullptr;
+    check(fpt_curve_arc_by_angle(center.data(), first.data(), second.data(), angles.data(), &out));
+    return curve(out);
+}
+
 /** fpt_elementary_data with the coordinate axes. */
 struct elementary_data : fpt_elementary_data {
     explicit elementary_data(fpt_elementary_kind kind, const std::array<double, 4> &domain) noexcept
@@ -1484,9 +1497,9 @@ public:
     fpt_trim *release() noexcept { return handle_.release(); }
 
     /** Prepared for point queries, as fpt_face_of_trim. */
-    face prepared() const {
+    face prepared(const fpt_face_options &options = face_options()) const {
         fpt_face *out = nullptr;
-        check(fpt_face_of_trim(get(), &out));
+        check(fpt_face_of_trim(get(), &options, &out));
         return face(out);
     }
 
@@ -1749,6 +1762,9 @@ inline std::vector<curve> make_compatible(const std::vector<const curve *> &curv
     for (fpt_curve *c : out) owned.emplace_back(c);
     return owned;
 }
+inline std::vector<curve> make_compatible(std::initializer_list<const curve *> curves) {
+    return make_compatible(std::vector<const curve *>(curves));
+}
 inline fpt_curve_frame_record frame(const curve &c, double u, std::int32_t side = 1) {
     fpt_curve_frame_record out{};
     check(fpt_curve_frame(c.get(), u, side, &out));
@@ -1808,6 +1824,91 @@ inline fpt_difference difference(const surface &a, const surface &b) {
     fpt_difference out{};
     check(fpt_surface_difference(a.get(), b.get(), &out));
     return out;
+}
+
+inline bounded<surface> unclamp(const surface &s, std::uint32_t direction) {
+    return bound_surface([&](double *error, fpt_surface **out) { return fpt_surface_unclamp(s.get(), direction, error, out); });
+}
+inline std::pair<surface, surface> split(const surface &s, std::uint32_t direction, double at) {
+    fpt_surface *before = nullptr, *behind = nullptr;
+    check(fpt_surface_split(s.get(), direction, at, &before, &behind));
+    return {surface(before), surface(behind)};
+}
+inline surface with_domain(const surface &s, const std::array<double, 4> &domain) {
+    return make_surface([&](fpt_surface **out) { return fpt_surface_with_domain(s.get(), domain.data(), out); });
+}
+inline surface reparametrise(const surface &s, std::uint32_t direction, double speed) {
+    return make_surface([&](fpt_surface **out) { return fpt_surface_reparametrise(s.get(), direction, speed, out); });
+}
+inline surface affine(const surface &s, const std::array<double, 12> &matrix) {
+    return make_surface([&](fpt_surface **out) { return fpt_surface_affine(s.get(), matrix.data(), out); });
+}
+inline surface projective(const surface &s, const std::array<double, 16> &matrix) {
+    return make_surface([&](fpt_surface **out) { return fpt_surface_projective(s.get(), matrix.data(), out); });
+}
+inline surface bezier_form(const surface &s) {
+    return make_surface([&](fpt_surface **out) { return fpt_surface_bezier_form(s.get(), out); });
+}
+inline bounded<surface> join(const std::vector<const surface *> &surfaces, std::uint32_t direction, double tolerance) {
+    std::vector<const fpt_surface *> list;
+    for (const surface *s : surfaces) list.push_back(s->get());
+    return bound_surface([&](double *error, fpt_surface **out) {
+        return fpt_surface_join(list.data(), list.size(), direction, tolerance, error, out);
+    });
+}
+inline std::vector<surface> make_compatible(const std::vector<const surface *> &surfaces) {
+    std::vector<const fpt_surface *> list;
+    for (const surface *s : surfaces) list.push_back(s->get());
+    std::vector<fpt_surface *> out(list.size());
+    check(fpt_surface_make_compatible(list.data(), list.size(), out.data()));
+    std::vector<surface> owned;
+    owned.reserve(out.size());
+    for (fpt_surface *s : out) owned.emplace_back(s);
+    return owned;
+}
+inline std::vector<surface> make_compatible(std::initializer_list<const surface *> surfaces) {
+    return make_compatible(std::vector<const surface *>(surfaces));
+}
+/** As fpt_surface_continuity. */
+inline std::vector<fpt_knot_line> continuity(const surface &s, std::uint32_t direction, double tolerance = 1e-9) {
+    const auto knots = direction == FPT_DIRECTION_U ? s.pole_count_u() + s.degree_u() : s.pole_count_v() + s.degree_v();
+    std::vector<fpt_knot_line> out(knots + 1);
+    std::size_t count = 0;
+    check(fpt_surface_continuity(s.get(), direction, tolerance, out.size(), out.data(), &count));
+    out.resize(count);
+    return out;
+}
+/** As fpt_curve_power. */
+inline std::vector<double> power(const curve &c) {
+    std::vector<double> out(4 * (c.pole_count() - c.degree()) * (c.degree() + 1));
+    std::size_t count = 0;
+    check(fpt_curve_power(c.get(), out.size(), out.data(), &count));
+    out.resize(count);
+    return out;
+}
+/** As fpt_curve_from_power; the degree is that of the coefficients. */
+inline curve from_power(span<const double> coefficients, double start, double end) {
+    detail::require(coefficients.size() % 4 == 0 && coefficients.size() >= 8, "coefficients: four for each power, two powers at least");
+    return make_curve([&](fpt_curve **out) {
+        return fpt_curve_from_power(coefficients.size() / 4 - 1, start, end, coefficients.data(), out);
+    });
+}
+/** As fpt_surface_power. */
+inline std::vector<double> power(const surface &s) {
+    const std::size_t u = (s.pole_count_u() - s.degree_u()) * (s.degree_u() + 1), v = (s.pole_count_v() - s.degree_v()) * (s.degree_v() + 1);
+    std::vector<double> out(4 * u * v);
+    std::size_t count = 0;
+    check(fpt_surface_power(s.get(), out.size(), out.data(), &count));
+    out.resize(count);
+    return out;
+}
+/** As fpt_surface_from_power. */
+inline surface from_power(std::size_t degree_u, std::size_t degree_v, span<const double> coefficients, const std::array<double, 4> &domain) {
+    detail::require(degree_u <= 31 && degree_v <= 31 && coefficients.size() == 4 * (degree_u + 1) * (degree_v + 1),
+                    "coefficients: four for each pair of powers");
+    return make_surface([&](fpt_surface **out) {
+        return fpt_surface_from_power(degree_u, degree_v, domain.data(), coefficients.data(), out);
+    });
 }
 
 /** The arc length of a curve: owner of an fpt_arc_length. */
@@ -2131,7 +2232,7 @@ struct intersect_surfaces_options : fpt_intersect_surfaces_options {
     }
 };
 
-/** A branch as curves in space and in both domains, and the greatest distance that was measured. */
+/** A branch as curves in space and in both domains, and the proven error. */
 struct branch_curves {
     curve space, uv, st;
     double error;
@@ -2146,6 +2247,15 @@ public:
                          const fpt_intersect_surfaces_options &options = intersect_surfaces_options()) {
         fpt_surface_intersection *out = nullptr;
         const fpt_status status = fpt_intersect_surfaces(a.get(), b.get(), &options, &out);
+        if (status != FPT_BUDGET_EXHAUSTED) check(status);
+        handle_.reset(out);
+    }
+
+    /** As fpt_intersect_trims. */
+    surface_intersection(const trimmed_surface &a, const trimmed_surface &b,
+                         const fpt_intersect_surfaces_options &options = intersect_surfaces_options()) {
+        fpt_surface_intersection *out = nullptr;
+        const fpt_status status = fpt_intersect_trims(a.get(), b.get(), &options, &out);
         if (status != FPT_BUDGET_EXHAUSTED) check(status);
         handle_.reset(out);
     }
@@ -2193,6 +2303,20 @@ public:
         double error = 0;
         check(fpt_surface_intersection_curves(get(), a.get(), b.get(), index, tolerance, part, &count, out, &error));
         return {curve(out[0]), curve(out[1]), curve(out[2]), error, count};
+    }
+    /** As fpt_surface_intersection_split. */
+    std::vector<trimmed_surface> split(const trimmed_surface &face, std::uint32_t which, double tolerance) const {
+        std::vector<fpt_trim *> out(16);
+        std::size_t count = 0;
+        fpt_status status = fpt_surface_intersection_split(get(), face.get(), which, tolerance, out.size(), out.data(), &count);
+        if (status == FPT_INVALID_ARGUMENT && count > out.size()) {
+            out.resize(count);
+            status = fpt_surface_intersection_split(get(), face.get(), which, tolerance, out.size(), out.data(), &count);
+        }
+        check(status);
+        std::vector<trimmed_surface> parts;
+        for (std::size_t i = 0; i < count; i++) parts.emplace_back(out[i]);
+        return parts;
     }
 
 private:

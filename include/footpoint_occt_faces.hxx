@@ -4,10 +4,12 @@
  *     const footpoint::trimmed_surface face = footpoint::occt::trimmed(topods_face);
  *     for (const fpt_trim_finding &finding : face.report().findings) use(finding);
  *
- * Parameters are OCCT's: planes, cylinders, cones, spheres and tori stay what they are, on the rectangle that the face's curves take;
- * Bezier and B-spline surfaces are splines; every other surface (revolution, extrusion, offset) is a function of its parameters. Curves in the
+ * Parameters are OCCT's: planes, cylinders, cones, spheres and tori stay what they are, on the rectangle that the face's curves take; so do
+ * surfaces of revolution and extrusion of lines, circles, ellipses, parabolas and splines; Bezier and B-spline surfaces are splines; every
+ * other surface (offsets, revolutions and extrusions of other curves) is a function of its parameters. Curves in the
  * domain: lines along a parameter are isolines, other lines polylines of two points, circles and ellipses arcs, everything else splines.
- * Edges: lines and splines keep OCCT's parameters, other curves become splines with parameters of their own.
+ * Edges: lines, circles, ellipses, parabolas and splines keep OCCT's parameters (arcs as polynomials of their angle, off by roundings), other
+ * curves become splines with parameters of their own.
  * Loops run with the face on their left; the face is flipped when OCCT's is reversed.
  * Placements with scale are refused, as OCCT's own tools do. Throws Standard_ConstructionError and footpoint::error.
  */
@@ -26,6 +28,7 @@
 #include <Geom2d_Line.hxx>
 #include <Geom2d_TrimmedCurve.hxx>
 #include <GeomConvert.hxx>
+#include <TColStd_Array1OfReal.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
@@ -35,6 +38,7 @@
 #include <TopoDS_Wire.hxx>
 
 #include <list>
+#include <optional>
 
 namespace footpoint::occt {
 namespace detail {
@@ -145,6 +149,67 @@ inline footpoint::support elementary_of(fpt_elementary_kind kind, const gp_Ax3 &
     return footpoint::support(data);
 }
 
+/** The part [first, last] of a curve with OCCT's parameters; nothing when it would need others. */
+inline std::optional<footpoint::curve> curve_in_parameter(const Handle(Geom_Curve) &given, double first, double last) {
+    Handle(Geom_Curve) shape = given;
+    while (const auto trimmed = Handle(Geom_TrimmedCurve)::DownCast(shape)) shape = trimmed->BasisCurve();
+    const auto arc = [&](const gp_Ax2 &axes, double major, double minor) -> std::optional<footpoint::curve> {
+        if (last - first > 2 * std::acos(-1.0) * (1 + 1e-12)) return std::nullopt;
+        const gp_XYZ c = axes.Location().XYZ(), x = axes.XDirection().XYZ() * major, y = axes.YDirection().XYZ() * minor;
+        return footpoint::arc_by_angle({c.X(), c.Y(), c.Z()}, {x.X(), x.Y(), x.Z()}, {y.X(), y.Y(), y.Z()}, {first, last});
+    };
+    if (!Handle(Geom_Line)::DownCast(shape).IsNull()) {
+        const gp_Pnt a = shape->Value(first), b = shape->Value(last);
+        return footpoint::curve(1, {first, first, last, last}, {a.X(), a.Y(), a.Z(), b.X(), b.Y(), b.Z()});
+    }
+    if (const auto circle = Handle(Geom_Circle)::DownCast(shape)) return arc(circle->Position(), circle->Radius(), circle->Radius());
+    if (const auto ellipse = Handle(Geom_Ellipse)::DownCast(shape))
+        return arc(ellipse->Position(), ellipse->MajorRadius(), ellipse->MinorRadius());
+    const bool is_polynomial = !Handle(Geom_BSplineCurve)::DownCast(shape).IsNull() ||
+                               !Handle(Geom_BezierCurve)::DownCast(shape).IsNull() || !Handle(Geom_Parabola)::DownCast(shape).IsNull();
+    if (!is_polynomial || first < shape->FirstParameter() || last > shape->LastParameter()) return std::nullopt;
+    const Handle(Geom_BSplineCurve) spline = GeomConvert::CurveToBSplineCurve(new Geom_TrimmedCurve(shape, first, last));
+    if (spline->IsPeriodic()) spline->SetNotPeriodic();
+    // A part of a Bezier curve comes with the parameters 0 to 1.
+    const double from = spline->FirstParameter(), to = spline->LastParameter();
+    if (from != first || to != last) {
+        TColStd_Array1OfReal knots(1, spline->NbKnots());
+        spline->Knots(knots);
+        for (int i = knots.Lower(); i <= knots.Upper(); i++) knots(i) = first + (knots(i) - from) * ((last - first) / (to - from));
+        knots(knots.Lower()) = first, knots(knots.Upper()) = last;
+        spline->SetKnots(knots);
+    }
+    return spline_in_space(spline);
+}
+
+/** A surface of revolution or extrusion on the rectangle that the curves of a face take; nothing when its curve needs other parameters. */
+inline std::optional<footpoint::support> swept_of(const Handle(Geom_Surface) &surface, std::array<double, 4> domain) {
+    const double turn = 2 * std::acos(-1.0);
+    try {
+        if (const auto turned = Handle(Geom_SurfaceOfRevolution)::DownCast(surface)) {
+            std::optional<footpoint::curve> meridian = curve_in_parameter(turned->BasisCurve(), domain[2], domain[3]);
+            if (!meridian) return std::nullopt;
+            if (domain[1] - domain[0] > turn - Precision::PConfusion()) domain[1] = domain[0] + turn;
+            elementary_data data(FPT_ELEMENTARY_REVOLUTION, domain);
+            put(data.origin, turned->Axis().Location().XYZ());
+            put(data.z, turned->Axis().Direction().XYZ());
+            data.curve = meridian->get();
+            return footpoint::support(data);
+        }
+        if (const auto moved = Handle(Geom_SurfaceOfLinearExtrusion)::DownCast(surface)) {
+            std::optional<footpoint::curve> base = curve_in_parameter(moved->BasisCurve(), domain[0], domain[1]);
+            if (!base) return std::nullopt;
+            elementary_data data(FPT_ELEMENTARY_EXTRUSION, domain);
+            put(data.z, moved->Direction().XYZ());
+            data.curve = base->get();
+            return footpoint::support(data);
+        }
+    } catch (const footpoint::error &) {
+        // What is no curve or no elementary surface here still is a function.
+    }
+    return std::nullopt;
+}
+
 /** The surface of a face, its placement applied. */
 inline footpoint::support support_of(const TopoDS_Face &face) {
     Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
@@ -181,20 +246,16 @@ inline footpoint::support support_of(const TopoDS_Face &face) {
         return footpoint::support(footpoint::surface(std::size_t(spline->UDegree()), std::size_t(spline->VDegree()), knots_u,
                                                      knots_v, poles, weights));
     }
+    if (auto swept = swept_of(surface, uv)) return std::move(*swept);
     return footpoint::support(called(surface, {uv[0], uv[1]}, {uv[2], uv[3]}, gp_Trsf()));
 }
 
 /** The curve of an edge in space; whether it has OCCT's parameters. */
 inline footpoint::curve edge_curve(const Handle(Geom_Curve) &given, double first, double last, bool &same) {
-    Handle(Geom_Curve) shape = given;
-    while (const auto trimmed = Handle(Geom_TrimmedCurve)::DownCast(shape)) shape = trimmed->BasisCurve();
-    if (!Handle(Geom_Line)::DownCast(shape).IsNull()) {
-        const gp_Pnt a = shape->Value(first), b = shape->Value(last);
-        same = true;
-        return footpoint::curve(1, {first, first, last, last}, {a.X(), a.Y(), a.Z(), b.X(), b.Y(), b.Z()});
-    }
-    same = !Handle(Geom_BSplineCurve)::DownCast(shape).IsNull() || !Handle(Geom_BezierCurve)::DownCast(shape).IsNull();
-    return spline_in_space(GeomConvert::CurveToBSplineCurve(new Geom_TrimmedCurve(shape, first, last)));
+    auto found = curve_in_parameter(given, first, last);
+    same = found.has_value();
+    if (same) return std::move(*found);
+    return spline_in_space(GeomConvert::CurveToBSplineCurve(new Geom_TrimmedCurve(given, first, last)));
 }
 
 } // namespace detail

@@ -62,6 +62,7 @@ use crate::extrema::ExtremaOptions;
 use crate::index::Poll;
 use crate::set::FootSet;
 use source::{Shape, Source};
+use std::sync::Arc;
 
 pub use source::{CURVE_SAMPLES, POINT_ULPS, STEP_FIRST, STEP_SECOND, SURFACE_SAMPLES};
 
@@ -131,6 +132,24 @@ impl CallbackCurve {
         let speed = bounds.speed.map(|speed| [speed, 0.0]);
         let second = bounds.second.map(|second| [second, 0.0, 0.0]);
         Ok(Self { shape: Shape::new(source, SurfaceBounds { speed, second })? })
+    }
+
+    /// The part between two parameters of the domain, with the same bounds.
+    ///
+    /// # Errors
+    /// Parameters that are not in the domain or do not increase; what [`Self::new`] refuses.
+    pub fn part(self: &Arc<Self>, ends: [f64; 2]) -> Result<Self, Error> {
+        self.check_domain([ends[0], ends[1], 0.0, 0.0])?;
+        let whole = Arc::clone(self);
+        Self::new(ends, self.bounds(), move |u, order, out| {
+            whole.derivatives(u, order, out).then_some(order)
+        })
+    }
+
+    /// What the caller vouched for.
+    pub fn bounds(&self) -> CurveBounds {
+        let SurfaceBounds { speed, second } = self.shape.bounds;
+        CurveBounds { speed: speed.map(|b| b[0]), second: second.map(|b| b[0]) }
     }
 
     /// First and last parameter.
@@ -244,6 +263,11 @@ impl CallbackSurface {
         };
         let source = Source::new(2, domain, Box::new(spread))?;
         Ok(Self { shape: Shape::new(source, bounds)? })
+    }
+
+    /// What the caller vouched for.
+    pub fn bounds(&self) -> SurfaceBounds {
+        self.shape.bounds
     }
 
     /// First and last parameters: u0, u1, v0, v1.

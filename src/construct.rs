@@ -19,6 +19,8 @@ mod quadric;
 mod sweep;
 mod skin;
 mod blend;
+mod poly;
+mod rail_proof;
 mod rail;
 mod offset_proof;
 mod offset;

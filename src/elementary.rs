@@ -18,6 +18,8 @@
 
 mod circle;
 
+pub(crate) mod angle;
+
 mod net;
 
 pub(crate) use net::part;
@@ -31,6 +33,7 @@ use crate::knots::MAX_MAGNITUDE;
 use crate::portable::SameDigits;
 use crate::surface::COLLAPSED_TOLERANCE;
 
+pub use angle::arc_by_angle;
 pub use circle::{CircleForm, quadrant_exact};
 
 /// How far axes may be from orthonormal. They are used as they are given.

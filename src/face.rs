@@ -15,9 +15,12 @@
 //!
 //! The border of a face is the image of its pcurves; edges in space, which files give with a gap, play no part.
 //!
-//! Limits: faces of spline surfaces; elementary ones are brought into that form by `transform` first.
+//! Every support will do, and parameters are the support's own (`ground`). Sides in the domain never need the surface. On a function
+//! distances are proven as far as it has a bound of its speed; without one nothing that needs a distance is, and places say so.
 
 mod border;
+
+mod ground;
 
 mod region;
 
@@ -27,17 +30,14 @@ mod members;
 
 mod many;
 
-use std::sync::Arc;
-
 use crate::batch::Memory;
 use crate::bounds::{Aabb, Vector, norm, sub};
 use crate::closest::{FootPoint, QueryOptions, Workspace};
 use crate::curve::Curve;
 use crate::error::Error;
-use crate::index::{IndexedSurface, Poll};
-use crate::pcurve::compose::Composer;
 use crate::trim::{Support, TrimmedSurface};
-use border::Border;
+use border::{Border, Setting};
+use ground::Ground;
 pub use region::{Halving, Region, Side};
 
 /// Share of the diagonal within which a place counts as on an edge by default.
@@ -45,6 +45,12 @@ const DEFAULT_TOLERANCE: f64 = 1e-7;
 
 /// Share of the diagonal that an answer may be from its bound by default.
 const DEFAULT_ACCURACY: f64 = 1e-10;
+
+/// Bit of [`Place::flags`]: whether an edge is within the tolerance is not proven, since the surface is a function without a bound.
+pub const NOT_PROVEN: u32 = 1;
+
+/// Most spans that the images of all coedges may have by default.
+pub const DEFAULT_BUDGET: u64 = 10_000_000;
 
 /// Where a place lies.
 #[repr(u32)]
@@ -71,8 +77,8 @@ pub struct Place {
     pub loop_index: u32,
     /// On an edge: the number of the coedge in its loop; else `u32::MAX`.
     pub coedge_index: u32,
-    /// 0.
-    pub reserved: u32,
+    /// 0 or [`NOT_PROVEN`].
+    pub flags: u32,
     /// On an edge: the parameter of the pcurve; else NaN.
     pub parameter: f64,
 }
@@ -81,7 +87,7 @@ impl Place {
     /// Not on an edge.
     pub fn off(standing: Standing) -> Self {
         let (loop_index, coedge_index) = (u32::MAX, u32::MAX);
-        Self { standing, loop_index, coedge_index, reserved: 0, parameter: f64::NAN }
+        Self { standing, loop_index, coedge_index, flags: 0, parameter: f64::NAN }
     }
 }
 
@@ -97,51 +103,76 @@ impl Memory for FaceWorkspace {}
 /// A face with what its queries need. Immutable.
 #[derive(Debug)]
 pub struct Face {
-    shape: Arc<IndexedSurface>,
+    support: Support,
+    ground: Ground,
     region: Region,
+    /// The pcurves of all loops as splines.
+    pcurves: Vec<Curve>,
     borders: Vec<Border>,
+    closed: [bool; 2],
+    collapsed: [bool; 4],
     /// Diagonal of the surface's box.
     diagonal: f64,
     bounds: Aabb,
 }
 
 impl Face {
-    /// Prepares a trimmed surface for queries. Cost: some microseconds a pcurve, milliseconds where an image must be fitted.
+    /// Prepares a trimmed surface for queries. Cost: some microseconds a pcurve, milliseconds where an image must be fitted. `budget`: most
+    /// spans of the images of all pcurves, 0: [`DEFAULT_BUDGET`]. `poll` is told how many coedges are done.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for a surface that is not a spline; [`Error::InvalidArgument`] for a pcurve that leaves the domain, by
-    /// loop and coedge; [`Error::OutOfMemory`]; [`Error::Cancelled`] when `poll` said so.
-    pub fn new(trimmed: &TrimmedSurface, poll: Poll) -> Result<Self, Error> {
-        let Support::Spline(shape) = trimmed.support() else {
-            let text = "trim: its surface is not a spline; transform it first";
-            return Err(Error::Unsupported(text.into()));
-        };
-        let shape = Arc::clone(shape);
-        let diagonal = shape.index(poll)?.frame.diagonal;
-        let mut chains: Vec<Vec<Curve>> = Vec::new();
-        let mut borders = Vec::new();
-        let mut composer = Composer::new(shape.surface());
+    /// [`Error::InvalidArgument`] for a pcurve that leaves the domain, by loop and coedge; [`Error::Unsupported`] when the budget does not
+    /// do; [`Error::OutOfMemory`]; [`Error::Cancelled`] when `poll` said so.
+    pub fn new(
+        trimmed: &TrimmedSurface,
+        budget: u64,
+        poll: &mut dyn FnMut(usize) -> bool,
+    ) -> Result<Self, Error> {
+        let support = trimmed.support().clone();
+        let ground = Ground::new(&support, &mut || poll(0))?;
+        let diagonal = ground.diagonal(&mut || false)?;
+        let budget = if budget > 0 { budget } else { DEFAULT_BUDGET };
+        let (mut pcurves, mut borders) = (Vec::new(), Vec::new());
+        let (mut spent, mut counts) = (0u64, Vec::new());
+        let mut setting = Setting::new(&support, diagonal)?;
         for (k, chain) in trimmed.loops().iter().enumerate() {
-            let mut curves = Vec::new();
+            counts.push(chain.coedges.len());
             for (i, coedge) in chain.coedges.iter().enumerate() {
-                if poll() {
+                let (done, before) = (pcurves.len(), borders.len());
+                let mut stop = || poll(done);
+                if stop() {
                     return Err(Error::Cancelled);
                 }
-                let border = Border::new(&mut composer, &coedge.pcurve, [k, i], diagonal)
-                    .map_err(|error| named(error, k, i))?;
-                curves.push(border.pcurve().clone());
-                borders.push(border);
+                let curve = setting.borders(&coedge.pcurve, [k, i], &mut stop, &mut borders);
+                pcurves.push(curve.map_err(|error| named(error, k, i))?);
+                spent += borders[before..].iter().map(Border::spans).sum::<u64>();
+                if spent > budget {
+                    let text = format!("budget: {budget} spans do not do for loop {k}, coedge {i}");
+                    return Err(Error::Unsupported(text));
+                }
             }
-            chains.push(curves);
         }
-        let region = Region::new(chains.iter().map(|chain| chain.iter()))?;
+        let mut rest = &pcurves[..];
+        let chains = counts.iter().map(|&count| {
+            let (chain, behind) = rest.split_at(count);
+            rest = behind;
+            chain.iter()
+        });
+        let region = Region::new(chains)?;
         let bounds = borders.iter().fold(Aabb::EMPTY, |all, border| all.union(border.bounds()));
-        Ok(Self { shape, region, borders, diagonal, bounds })
+        let (closed, collapsed) = (support.closed(), support.collapsed_edges());
+        drop(setting);
+        Ok(Self { support, ground, region, pcurves, borders, closed, collapsed, diagonal, bounds })
     }
 
     /// The surface.
-    pub fn surface(&self) -> &IndexedSurface {
-        &self.shape
+    pub fn support(&self) -> &Support {
+        &self.support
+    }
+
+    /// Bytes held by the surface and its index.
+    pub fn surface_memory(&self) -> usize {
+        self.ground.memory()
     }
 
     /// The loops in the domain.
@@ -151,7 +182,7 @@ impl Face {
 
     /// The pcurves of all loops as splines, in order.
     pub fn pcurves(&self) -> impl Iterator<Item = &Curve> {
-        self.borders.iter().map(Border::pcurve)
+        self.pcurves.iter()
     }
 
     /// The box around the edges in space; the face may bulge out of it.
@@ -182,11 +213,16 @@ impl Face {
         if at.iter().any(|x| !x.is_finite()) {
             return Place::off(Standing::Unknown);
         }
-        let [u0, u1, v0, v1] = self.shape.surface().domain();
+        let [u0, u1, v0, v1] = self.support.domain();
         if at[0] < u0 || at[0] > u1 || at[1] < v0 || at[1] > v1 {
             return Place::off(Standing::Outside);
         }
-        let point = self.shape.surface().evaluate(at[0], at[1]);
+        let point = self.support.evaluate(at);
+        if point.iter().any(|x| !x.is_finite()) {
+            // A function fails there.
+            return Place::off(Standing::Unknown);
+        }
+        let (proven, mut doubt) = (self.ground.is_proven(), 0);
         let tolerance = self.tolerance(options);
         let (mut nearest, mut unknown) = (None::<(f64, Place)>, false);
         for border in &self.borders {
@@ -196,20 +232,23 @@ impl Face {
             };
             if found.distance <= limit {
                 nearest = Some((found.distance, border.place(found.t)));
-            } else if found.lower_bound + found.allowed < tolerance {
+            } else if proven && found.lower_bound + found.allowed < tolerance {
                 unknown = true;
+            } else if !proven {
+                doubt = NOT_PROVEN;
             }
         }
         if let Some((_, place)) = nearest {
             return place;
         }
-        match self.region.side(at, &mut workspace.halving) {
-            _ if unknown => Place::off(Standing::Unknown),
-            Side::Inside => Place::off(Standing::Inside),
-            Side::Outside => Place::off(Standing::Outside),
+        let standing = match self.region.side(at, &mut workspace.halving) {
+            _ if unknown => Standing::Unknown,
+            Side::Inside => Standing::Inside,
+            Side::Outside => Standing::Outside,
             // The image of a border place that no border's search has found: only rounding is between them.
-            Side::Border => Place::off(Standing::Unknown),
-        }
+            Side::Border => Standing::Unknown,
+        };
+        Place { flags: doubt, ..Place::off(standing) }
     }
 
     /// Whether a place belongs to the closed region, without a tolerance.
@@ -219,8 +258,7 @@ impl Face {
 
     /// As [`Self::holds`], also for the same point at the other end of a closed direction; the parameters that do.
     fn held(&self, foot: &FootPoint, workspace: &mut FaceWorkspace) -> Option<[f64; 2]> {
-        let [u0, u1, v0, v1] = self.shape.surface().domain();
-        let closed = self.shape.index(&mut || false).map_or([false; 2], |index| index.closed);
+        let ([u0, u1, v0, v1], closed) = (self.support.domain(), self.closed);
         let other = |x: f64, [low, high]: [f64; 2], closed: bool| {
             let twin = if x == low { high } else { low };
             (closed && (x == low || x == high)).then_some(twin)
@@ -239,7 +277,7 @@ impl Face {
 
     /// Distance between a query and the surface at a place.
     fn distance(&self, query: Vector, at: [f64; 2]) -> f64 {
-        norm(sub(query, self.shape.surface().evaluate(at[0], at[1])))
+        norm(sub(query, self.support.evaluate(at)))
     }
 }
 

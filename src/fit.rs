@@ -19,6 +19,7 @@ use crate::error::Error;
 use crate::knots::{Knots, MAX_DEGREE};
 
 mod adaptive;
+mod certificate;
 mod conditions;
 mod grid;
 mod near;
@@ -27,14 +28,13 @@ mod scattered;
 mod triangle;
 
 pub use adaptive::{Adaptive, adaptive, of_function};
+pub use certificate::{Certificate, certify};
 pub use conditions::{Condition, interpolate_periodic, interpolate_with, least_squares_periodic};
 pub use grid::{
     Grid, GridOptions, SheetFit, adaptive_grid, grid_parameters, interpolate_grid,
     least_squares_grid,
 };
-pub use near::{
-    Certificate, Near, NearOptions, certify, curve_near, plane_parameters, surface_near,
-};
+pub use near::{Near, NearOptions, curve_near, plane_parameters, surface_near};
 pub use parameters::{Spacing, averaged_knots, parameters, spread_knots};
 use parameters::{check_parameters, check_points, distance};
 use triangle::{Triangle, zeros};

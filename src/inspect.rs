@@ -14,7 +14,17 @@ mod polynomial;
 
 mod cell;
 
-mod constant;
+mod request;
+
+mod search;
+
+mod glance;
+
+mod level;
+
+mod climb;
+
+mod carrier;
 
 mod ranges;
 
@@ -35,5 +45,6 @@ pub use bend::{
 pub use continuity::{Continuity, Measured, continuity};
 pub use hausdorff::{Directed, Hausdorff, HausdorffOptions, Shape, hausdorff};
 pub use picture::{Pattern, Picture, PictureOptions, picture};
-pub use ranges::{Quantity, Range, RangeOptions, curve_range, surface_range};
+pub use ranges::{curve_range, surface_range};
+pub use request::{Quantity, Range, RangeOptions, Side};
 pub use umbilic::{Curvatures, Umbilic, curvatures, umbilics};

@@ -1,7 +1,7 @@
 //! Surface-surface intersection: all branches, with a proof that none is missing, or with what could not be decided.
 //!
 //! ```text
-//!   A, B -> pairs of parts -> empty | one arc, proven | halve | touch here          `pieces`, `pair`, `search`
+//!   A, B -> pairs of parts -> empty | one arc, proven | halve | touch here          `pieces`, `arc`, `pair`, `search`
 //!        -> arcs walked over knot lines and seams -> branches, refined to the chord  `join`
 //!        -> touching curves traced, points and areas classified                      `contact`, `cluster`
 //! ```
@@ -12,12 +12,20 @@
 //!
 //! References: Sinha, Klassen, Wang 1985 and Sederberg, Meyers 1988 (loops and normals); Krawczyk 1969 (the test of an arc); Ye,
 //! Maekawa 1999 (contact).
-//! Limits: NURBS only; surfaces given by functions are not taken. Two arcs that run on both sides of a knot line at a distance below
+//! Faces, elementary surfaces and surfaces given by functions: [`faces`]. Limits: two arcs that run on both sides of a knot line at a distance below
 //! the rounding are one.
+
+mod bends;
 
 mod pieces;
 
+mod system;
+
+mod arc;
+
 mod pair;
+
+pub mod shape;
 
 mod contact;
 
@@ -29,23 +37,39 @@ mod tangent;
 
 mod cluster;
 
+mod overlap;
+
+mod assemble;
+
 pub mod correct;
 
 pub mod follow;
+
+pub mod bisect;
 
 pub mod triangles;
 
 pub mod curves;
 
+mod functions;
+
+mod border;
+
+pub mod faces;
+
+pub mod split;
+
 use crate::bounds::{HALF_ULP, Vector, add, norm, scaled, sub};
-use crate::closest::{QueryOptions, Workspace};
 use crate::error::Error;
 use crate::index::IndexedSurface;
 use crate::surface::Surface;
-use cluster::{Cluster, clusters, see};
-use join::{Joiner, Place, Stop};
+use assemble::{Maker, at_point, region};
+use cluster::clusters;
+use join::Joiner;
+pub use join::distance_to_chord;
+use overlap::rims;
 use search::{Open, Search};
-use tangent::{is_near, ridges};
+use tangent::ridges;
 
 /// Pairs of parts that are judged at most, when the caller does not say.
 pub const DEFAULT_BUDGET: u64 = 2_000_000;
@@ -58,6 +82,18 @@ pub struct MarchOptions {
     pub chord: f64,
     /// Most pairs of parts; 0: [`DEFAULT_BUDGET`].
     pub budget: u64,
+}
+
+impl MarchOptions {
+    /// # Errors
+    /// [`Error::InvalidArgument`] for a length that is negative or not finite.
+    fn checked(self) -> Result<Self, Error> {
+        if !self.chord.is_finite() || self.chord < 0.0 {
+            let text = format!("chord: {} is not a length", self.chord);
+            return Err(Error::InvalidArgument(text));
+        }
+        Ok(self)
+    }
 }
 
 /// A point of both surfaces.
@@ -83,6 +119,8 @@ pub enum End {
     Contact(usize),
     /// An undecided box is there.
     Undecided,
+    /// A trim of A (0) or B (1): see [`faces`].
+    Trim(u8),
 }
 
 /// A curve of the intersection.
@@ -95,11 +133,28 @@ pub struct Branch {
     pub ends: [End; 2],
     /// Whether the surfaces touch along it.
     pub is_tangential: bool,
+    /// Whether it bounds an area in which the surfaces coincide; then it is tangential too.
+    pub bounds_overlap: bool,
     /// Greatest distance between the two surface points of one of its points.
     pub gap: f64,
+    /// Proven: between two points the branch stays within this of their chord, a length. Infinite for a tangential branch; the last
+    /// piece beside a contact is not counted, it is about as long as the contact's radius.
+    pub chord: f64,
+    /// Proven: between two points u, v, s, t stay within these of their straight line. Infinite where `chord` is.
+    pub bulge: [f64; 4],
+    /// For each chord the parameter over which it is a graph ([`Branch::ANY`]: not known, [`Branch::JUMP`]: it passes a seam).
+    held: Vec<u8>,
 }
 
 impl Branch {
+    const ANY: u8 = 4;
+    const JUMP: u8 = 5;
+
+    /// Whether point `i` is the one before it, seen from the other side of a seam.
+    fn passes_seam(&self, i: usize) -> bool {
+        i > 0 && self.held.get(i - 1) == Some(&Self::JUMP)
+    }
+
     /// Whether it is a loop.
     pub fn is_closed(&self) -> bool {
         self.ends[0] == End::Closed
@@ -132,6 +187,8 @@ pub struct Contact {
     pub gap: f64,
     /// Nothing else of the intersection is farther from it than this and still not on a branch.
     pub radius: f64,
+    /// The box of parameters that was not told apart further.
+    pub area: Region,
 }
 
 /// A part in which the surfaces coincide to the last digits.
@@ -221,9 +278,7 @@ pub fn intersect(
     options: &MarchOptions,
     poll: &mut dyn FnMut(u64, u64) -> bool,
 ) -> Result<Intersection, Error> {
-    if !options.chord.is_finite() || options.chord < 0.0 {
-        return Err(Error::InvalidArgument(format!("chord: {} is not a length", options.chord)));
-    }
+    let options = options.checked()?;
     let frames = Frames::new(a.surface(), b.surface())?;
     let [sa, sb] = &frames.surfaces;
     let chord = if options.chord > 0.0 { options.chord * frames.scale } else { 1e-3 };
@@ -254,242 +309,34 @@ pub fn intersect(
             kind: ContactKind::Border,
             gap: made.gap(&place),
             radius: 0.0,
+            area: at_point(&place),
         });
     }
     for chain in chains {
-        made.push(chain.places, chain.stops, false);
+        let bounds = (chain.chord / frames.scale, chain.bulge, chain.held);
+        made.push(chain.places, chain.stops, Some(bounds));
     }
     for ridge in ridges {
-        made.push(ridge.places, ridge.stops, true);
+        made.push(ridge.places, ridge.stops, None);
     }
     made.join_at_tips();
-    let out = &mut made.out;
-    let transversal = out
-        .branches
-        .iter()
-        .all(|branch| !branch.is_tangential && !branch.ends.contains(&End::Undecided));
-    out.is_proven = transversal
-        && out.contacts.is_empty()
-        && out.overlaps.is_empty()
-        && out.undecided.is_empty();
+    made.swallow();
+    for rim in rims(&search, chord) {
+        made.push(rim.places, [rim.stop; 2], None);
+        if let Some(branch) = made.out.branches.last_mut() {
+            branch.bounds_overlap = true;
+        }
+    }
+    made.out.is_proven = settled(&made.out);
     Ok(made.out)
 }
 
-fn region(low: [f64; 4], high: [f64; 4]) -> Region {
-    Region { range: [low[0], high[0], low[1], high[1], low[2], high[2], low[3], high[3]] }
-}
-
-struct Maker<'a, 'b> {
-    a: &'a Surface,
-    b: &'a Surface,
-    search: &'a Search<'b>,
-    out: Intersection,
-}
-
-impl Maker<'_, '_> {
-    fn point(&self, place: &Place) -> MarchPoint {
-        let [u, v, s, t] = place.at;
-        let (x, y) = (self.a.evaluate(u, v), self.b.evaluate(s, t));
-        MarchPoint {
-            point: std::array::from_fn(|k| x[k] + 0.5 * (y[k] - x[k])),
-            uv: [u, v],
-            st: [s, t],
-        }
-    }
-
-    fn gap(&self, point: &MarchPoint) -> f64 {
-        let ([u, v], [s, t]) = (point.uv, point.st);
-        norm(sub(self.a.evaluate(u, v), self.b.evaluate(s, t)))
-    }
-
-    /// What is in the groups of boxes that were not divided further.
-    fn classify(&mut self, groups: &[Cluster], ridges: &[tangent::Ridge]) {
-        for pair in self.search.open.iter().filter(|pair| pair.why == Open::Area) {
-            self.out.overlaps.push(region(pair.low, pair.high));
-        }
-        for group in groups {
-            let [area, curve, flat, budget] = group.has;
-            if area || (curve && !flat && !budget) {
-                continue;
-            }
-            let seen = if budget { None } else { see(self.search, group) };
-            match seen {
-                Some(seen) if group.size <= 0.05 => {
-                    if ridges.iter().any(|ridge| {
-                        is_near(
-                            seen.place.x,
-                            &ridge.places,
-                            group.size.max(16.0 * self.search.floor),
-                        )
-                    }) {
-                        continue;
-                    }
-                    let place = self.point(&seen.place);
-                    let kind = match seen.sign {
-                        1 => ContactKind::Touching,
-                        -1 => ContactKind::Crossing,
-                        _ => ContactKind::Degenerate,
-                    };
-                    let radius = group.size / self.scale();
-                    // At a seam the same point is seen from both sides.
-                    let same = |c: &&mut Contact| {
-                        norm(sub(c.place.point, place.point)) <= 2.0 * (c.radius + radius)
-                    };
-                    if let Some(known) = self.out.contacts.iter_mut().find(same) {
-                        known.radius = known.radius.max(radius);
-                        continue;
-                    }
-                    self.out.contacts.push(Contact { place, kind, gap: self.gap(&place), radius });
-                }
-                _ => self.out.undecided.push(region(group.low, group.high)),
-            }
-        }
-    }
-
-    /// What lengths of the caller were multiplied by.
-    fn scale(&self) -> f64 {
-        let (low, high) = self.a.bounding_box();
-        let (l, h) = self.search.surfaces[0].bounding_box();
-        norm(sub(h, l)) / norm(sub(high, low))
-    }
-
-    /// A collapsed edge that came near the other surface: a contact, if it lies on it.
-    fn tip(&mut self, (whose, side): (usize, usize), surfaces: [&IndexedSurface; 2]) {
-        let own = surfaces[whose].surface();
-        let [u0, u1, v0, v1] = own.domain();
-        let at = [[u0, v0], [u1, v0], [u0, v0], [u0, v1]][side];
-        let point = own.evaluate(at[0], at[1]);
-        let foot = surfaces[1 - whose].closest(
-            point,
-            None,
-            &QueryOptions::default(),
-            &mut Workspace::default(),
-            None,
-        );
-        let size = self.search.tip_size() / self.scale();
-        if foot.lower_bound > 2.0 * size {
-            return;
-        }
-        let other = [foot.u, foot.v];
-        let (uv, st) = if whose == 0 { (at, other) } else { (other, at) };
-        let place = self.point(&Place { x: [0.0; 3], at: [uv[0], uv[1], st[0], st[1]] });
-        let known =
-            self.out.contacts.iter().any(|c| norm(sub(c.place.point, place.point)) <= 2.0 * size);
-        if !known {
-            let gap = self.gap(&place);
-            self.out.contacts.push(Contact { place, kind: ContactKind::Tip, gap, radius: size });
-        }
-    }
-
-    /// Branches that meet two by two in a collapsed edge are one; the contact between them is left out.
-    fn join_at_tips(&mut self) {
-        for k in (0..self.out.contacts.len()).rev() {
-            if self.out.contacts[k].kind != ContactKind::Tip {
-                continue;
-            }
-            let ends: Vec<(usize, usize)> = (0..self.out.branches.len())
-                .flat_map(|i| [(i, 0), (i, 1)])
-                .filter(|&(i, end)| self.out.branches[i].ends[end] == End::Contact(k))
-                .collect();
-            let [(i, first), (j, second)] = ends[..] else { continue };
-            let tidy = |points: &mut Vec<MarchPoint>, end: usize| {
-                // The tip with the parameter along the edge of the side from which the branch comes.
-                let n = points.len();
-                let (tip, beside) = if end == 0 { (0, 1) } else { (n - 1, n - 2) };
-                let near = points[beside];
-                let keep = |own: [f64; 2], near: [f64; 2], edges: [bool; 4]| {
-                    [
-                        if edges[2] || edges[3] { near[0] } else { own[0] },
-                        if edges[0] || edges[1] { near[1] } else { own[1] },
-                    ]
-                };
-                let at_edge = |s: &Surface, at: [f64; 2]| {
-                    let ([u0, u1, v0, v1], c) = (s.domain(), s.collapsed_edges());
-                    [
-                        c[0] && at[0] == u0,
-                        c[1] && at[0] == u1,
-                        c[2] && at[1] == v0,
-                        c[3] && at[1] == v1,
-                    ]
-                };
-                let point = points[tip];
-                points[tip].uv = keep(point.uv, near.uv, at_edge(self.a, point.uv));
-                points[tip].st = keep(point.st, near.st, at_edge(self.b, point.st));
-            };
-            let mut one = std::mem::take(&mut self.out.branches[i].points);
-            tidy(&mut one, first);
-            if i == j {
-                tidy(&mut one, second);
-                self.out.branches[i].points = one;
-                self.out.branches[i].ends = [End::Closed; 2];
-            } else {
-                let mut two = std::mem::take(&mut self.out.branches[j].points);
-                tidy(&mut two, second);
-                if first == 0 {
-                    one.reverse();
-                }
-                if second == 1 {
-                    two.reverse();
-                }
-                one.extend(two);
-                let ends =
-                    [self.out.branches[i].ends[1 - first], self.out.branches[j].ends[1 - second]];
-                let gap = self.out.branches[i].gap.max(self.out.branches[j].gap);
-                let branch = &mut self.out.branches[i];
-                (branch.points, branch.ends, branch.gap) = (one, ends, gap);
-                self.out.branches.remove(j);
-            }
-            self.out.contacts.remove(k);
-            for branch in &mut self.out.branches {
-                for end in &mut branch.ends {
-                    if let End::Contact(n) = end {
-                        *n -= usize::from(*n > k);
-                    }
-                }
-            }
-        }
-    }
-
-    /// The contact at which a chain ends, if any.
-    fn contact_near(&self, point: &MarchPoint) -> Option<usize> {
-        let far = |k: usize| norm(sub(self.out.contacts[k].place.point, point.point));
-        let best = (0..self.out.contacts.len()).min_by(|&i, &j| far(i).total_cmp(&far(j)))?;
-        let reach = 8.0 * self.out.contacts[best].radius + 64.0 * self.search.floor / self.scale();
-        (far(best) <= reach).then_some(best)
-    }
-
-    fn push(&mut self, places: Vec<Place>, stops: [Stop; 2], is_tangential: bool) {
-        let mut points: Vec<MarchPoint> = places.iter().map(|place| self.point(place)).collect();
-        let mut ends = [End::Undecided; 2];
-        for k in 0..2 {
-            ends[k] = match stops[k] {
-                Stop::Closed => End::Closed,
-                Stop::Border(side) => End::Border(side as u8),
-                Stop::Open => {
-                    let at = if k == 0 { points[0] } else { points[points.len() - 1] };
-                    match self.contact_near(&at) {
-                        Some(contact) => {
-                            let place = self.out.contacts[contact].place;
-                            if k == 0 {
-                                points.insert(0, place)
-                            } else {
-                                points.push(place)
-                            }
-                            End::Contact(contact)
-                        }
-                        None => End::Undecided,
-                    }
-                }
-            };
-        }
-        if is_tangential && stops.iter().all(|stop| matches!(stop, Stop::Border(_))) {
-            let (first, last) = (points[0].point, points[points.len() - 1].point);
-            let length = points.windows(2).map(|w| norm(sub(w[1].point, w[0].point))).sum::<f64>();
-            if norm(sub(first, last)) <= 64.0 * self.search.floor / self.scale() && length > 0.0 {
-                ends = [End::Closed; 2];
-            }
-        }
-        let gap = points.iter().fold(0.0f64, |m, p| m.max(self.gap(p)));
-        self.out.branches.push(Branch { points, ends, is_tangential, gap });
-    }
+/// Whether every branch is transversal, and nothing touches, coincides, or is undecided.
+fn settled(out: &Intersection) -> bool {
+    let transversal =
+        |branch: &Branch| !branch.is_tangential && !branch.ends.contains(&End::Undecided);
+    out.branches.iter().all(transversal)
+        && out.contacts.is_empty()
+        && out.overlaps.is_empty()
+        && out.undecided.is_empty()
 }

@@ -24,6 +24,10 @@
 
 mod speed;
 
+mod imager;
+
+mod compare;
+
 mod change;
 
 mod convert;
@@ -34,6 +38,8 @@ mod matching;
 
 mod flat;
 
+mod gap;
+
 mod report;
 
 mod dump;
@@ -41,6 +47,10 @@ mod dump;
 mod picture;
 
 mod merge;
+
+mod course;
+
+mod recut;
 
 mod follow;
 
@@ -53,13 +63,17 @@ use crate::elementary::ElementarySurface;
 use crate::error::Error;
 use crate::index::{IndexedCurve, IndexedSurface};
 use crate::pcurve::{Direction, Parameters, Pcurve};
+use crate::surface::Surface;
 use crate::transform::between;
 
 pub use change::{ChangeOptions, Changed, DEFAULT_TOLERANCE, MOST_VERTICES, Replacement};
+pub use compare::PLACES;
 pub use convert::form_transform;
+pub use gap::GAP_SAMPLES;
 pub use matching::Matching;
 pub use picture::{MOST_COLUMNS, picture};
-pub use report::{Finding, GAP_SAMPLES, Place, REPORT_TOLERANCE, Report};
+pub use report::{Finding, Place, REPORT_TOLERANCE, Report};
+pub(crate) use speed::motion;
 
 /// The surface under a face.
 #[derive(Clone, Debug)]
@@ -77,12 +91,22 @@ pub enum Support {
 pub struct ElementarySupport {
     surface: ElementarySurface,
     form: OnceLock<Box<IndexedSurface>>,
+    chart: OnceLock<Box<(Surface, f64)>>,
+}
+
+/// A spline in the parameters of a support, and how far it may be from it.
+#[derive(Clone, Copy, Debug)]
+pub struct Chart<'a> {
+    /// The spline.
+    pub surface: &'a Surface,
+    /// No point of it is farther from the support's at equal parameters.
+    pub error: f64,
 }
 
 impl ElementarySupport {
     /// Takes the surface.
     pub fn new(surface: ElementarySurface) -> Self {
-        Self { surface, form: OnceLock::new() }
+        Self { surface, form: OnceLock::new(), chart: OnceLock::new() }
     }
 
     /// The surface.
@@ -100,6 +124,21 @@ impl ElementarySupport {
         }
         let form = self.surface.nurbs(self.surface.usual_forms())?;
         Ok(self.form.get_or_init(|| Box::new(IndexedSurface::new(form))))
+    }
+
+    /// A spline in the parameters of the surface, angles included ([`ElementarySurface::chart`]).
+    ///
+    /// # Errors
+    /// Memory that could not be had.
+    pub fn chart(&self) -> Result<Chart<'_>, Error> {
+        let (surface, error) = match self.chart.get() {
+            Some(made) => made.as_ref(),
+            None => {
+                let made = self.surface.chart()?;
+                self.chart.get_or_init(|| Box::new(made)).as_ref()
+            }
+        };
+        Ok(Chart { surface, error: *error })
     }
 }
 
@@ -158,6 +197,18 @@ impl Support {
             Self::Spline(spline) => spline.surface().collapsed_edges(),
             Self::Elementary(elementary) => elementary.surface.collapsed_edges(),
             Self::Callback(callback) => callback.collapsed_edges(),
+        }
+    }
+
+    /// A spline in the parameters of the support; none for a function.
+    ///
+    /// # Errors
+    /// Memory that could not be had.
+    pub fn chart(&self) -> Result<Option<Chart<'_>>, Error> {
+        match self {
+            Self::Spline(spline) => Ok(Some(Chart { surface: spline.surface(), error: 0.0 })),
+            Self::Elementary(elementary) => elementary.chart().map(Some),
+            Self::Callback(_) => Ok(None),
         }
     }
 
@@ -474,8 +525,8 @@ impl Support {
     }
 }
 
-impl From<crate::surface::Surface> for Support {
-    fn from(surface: crate::surface::Surface) -> Self {
+impl From<Surface> for Support {
+    fn from(surface: Surface) -> Self {
         Self::Spline(Arc::new(IndexedSurface::new(surface)))
     }
 }

@@ -48,7 +48,7 @@ fn coedge(pcurve: Pcurve) -> Coedge {
 fn face_of(surface: Surface, loops: Vec<Loop>) -> Face {
     let support = Support::Spline(Arc::new(IndexedSurface::new(surface)));
     let trimmed = TrimmedSurface::new(support, Vec::new(), loops, false).unwrap();
-    Face::new(&trimmed, &mut || false).unwrap()
+    Face::new(&trimmed, 0, &mut |_| false).unwrap()
 }
 
 /// A wavy surface over the unit square with a random outline and a hole.
@@ -80,7 +80,7 @@ fn ask(face: &Face, query: Vector) -> (FootPoint, Place) {
 
 /// Points of a face on a grid, and of its loops.
 fn samples(face: &Face, count: usize) -> Vec<([f64; 2], Vector)> {
-    let surface = face.surface().surface();
+    let surface = face.support();
     let [u0, u1, v0, v1] = surface.domain();
     let mut memory = Halving::default();
     let mut out = Vec::new();
@@ -89,7 +89,7 @@ fn samples(face: &Face, count: usize) -> Vec<([f64; 2], Vector)> {
             let share = |k: usize| k as f64 / count as f64;
             let at = [u0 + (u1 - u0) * share(i), v0 + (v1 - v0) * share(j)];
             if face.region().side(at, &mut memory) != Side::Outside {
-                out.push((at, surface.evaluate(at[0], at[1])));
+                out.push((at, surface.evaluate(at)));
             }
         }
     }
@@ -150,7 +150,7 @@ fn the_nearest_point_may_be_a_foot_that_is_not_the_surface_s_own() {
     };
     let face = face_of(surface.clone(), rectangle(0.55, 0.99));
     let query = [-0.1, 0.0, 0.9];
-    let whole = face.surface().closest(
+    let whole = IndexedSurface::new(surface.clone()).closest(
         query,
         None,
         &QueryOptions::default(),
@@ -197,7 +197,7 @@ fn a_continuum_of_feet_is_answered_by_what_the_face_has_of_it() {
 fn sides_agree_with_a_fine_polygon_and_edges_with_their_distance() {
     for seed in 1..=8 {
         let face = random_face(seed);
-        let surface = face.surface().surface().clone();
+        let surface = face.support().clone();
         let mut r = Random(seed);
         let _ = (0..25).map(|_| r.between(-1.5, 1.5)).count();
         let mut workspace = FaceWorkspace::default();
@@ -205,7 +205,7 @@ fn sides_agree_with_a_fine_polygon_and_edges_with_their_distance() {
         for _ in 0..60 {
             let at = [r.between(0.0, 1.0), r.between(0.0, 1.0)];
             let place = face.classify(at, &options, &mut workspace);
-            let point = surface.evaluate(at[0], at[1]);
+            let point = surface.evaluate(at);
             let side = face.region().side(at, &mut Halving::default());
             match place.standing {
                 Standing::Inside => assert_eq!(side, Side::Inside),
@@ -222,13 +222,13 @@ fn sides_agree_with_a_fine_polygon_and_edges_with_their_distance() {
 
 /// Distance to the loops by sampling and a parabola.
 fn edge_distance(face: &Face, point: Vector) -> f64 {
-    let surface = face.surface().surface();
+    let surface = face.support();
     let mut best = f64::INFINITY;
     for curve in face.pcurves() {
         let (a, b) = curve.domain();
         let at = |k: f64| {
             let [u, v, _] = curve.evaluate((a + (b - a) * k / 1500.0).clamp(a, b));
-            norm(sub(surface.evaluate(u, v), point))
+            norm(sub(surface.evaluate([u, v]), point))
         };
         let nearest = (0..=1500).map(f64::from).min_by(|i, j| at(*i).total_cmp(&at(*j))).unwrap();
         for k in -100..=100 {
@@ -243,7 +243,7 @@ fn the_whole_of_a_sphere_has_its_seam_and_its_poles_as_edges() {
     let sphere = known::sphere([0.0, 4.0]);
     let support = Support::Spline(Arc::new(IndexedSurface::new(sphere.surface().clone())));
     let trimmed = TrimmedSurface::whole(support).unwrap();
-    let face = Face::new(&trimmed, &mut || false).unwrap();
+    let face = Face::new(&trimmed, 0, &mut |_| false).unwrap();
     let mut workspace = FaceWorkspace::default();
     let mut classify =
         |u: f64, v: f64| face.classify([u, v], &QueryOptions::default(), &mut workspace).standing;

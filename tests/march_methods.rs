@@ -3,6 +3,7 @@
 mod march_shapes;
 
 use footpoint::index::IndexedSurface;
+use footpoint::march::bisect::refined;
 use footpoint::march::correct::{Corrector, correct};
 use footpoint::march::curves::{curves, reduced};
 use footpoint::march::follow::{WalkEnd, follow};
@@ -198,7 +199,7 @@ fn curves_of_a_branch_agree_and_fewer_points_keep_the_chord() {
             assert!(part.error <= 1e-6, "{:e}", part.error);
             let (low, high) = part.space.domain();
             for n in 0..=40 {
-                let t = low + (high - low) * f64::from(n) / 40.0;
+                let t = (low + (high - low) * f64::from(n) / 40.0).min(high);
                 let p = part.space.evaluate(t);
                 assert!(
                     (p[0].hypot(p[1]) - 1.0).abs() < 1e-6 && (p[1].hypot(p[2]) - 0.6).abs() < 1e-6
@@ -277,4 +278,141 @@ fn random_sheets_give_the_same_branches_in_either_order_and_hold_all_that_a_mesh
     }
     println!("{total} branches");
     assert!(total > 30);
+}
+
+#[test]
+fn bisection_makes_a_coarse_walk_as_fine_as_asked() {
+    let (a, b) = pair();
+    let (x, y) = (IndexedSurface::new(a.clone()), IndexedSurface::new(b.clone()));
+    let coarse = MarchOptions { chord: 0.1, ..MarchOptions::default() };
+    let found = intersect(&x, &y, &coarse, &mut |_, _| false).unwrap();
+    for branch in &found.branches {
+        // Up to the first seam.
+        let apart = |w: &[footpoint::march::MarchPoint]| {
+            (0..3).map(|k| (w[0].point[k] - w[1].point[k]).abs()).fold(0.0, f64::max)
+        };
+        let seam = branch.points.windows(2).position(|w| apart(w) < 1e-12);
+        let points = &branch.points[..=seam.unwrap_or(branch.points.len() - 1)];
+        if points.len() < 3 {
+            continue;
+        }
+        let places: Vec<[f64; 4]> =
+            points.iter().map(|p| [p.uv[0], p.uv[1], p.st[0], p.st[1]]).collect();
+        let (mut before, mut counts) = (places.len(), Vec::new());
+        for chord in [1e-2, 1e-3, 1e-4] {
+            let fine = refined(&a, &b, &places, Corrector::Auto, chord).unwrap();
+            assert!(fine.len() >= before);
+            assert!(fine.iter().all(|at| off(a.evaluate(at[0], at[1])) < 1e-2 * chord + 1e-12));
+            (before, counts) = (fine.len(), [counts, vec![fine.len()]].concat());
+            // The middle of each chord, corrected, is as near as was asked for.
+            for w in fine.windows(2) {
+                let middle = [0, 1, 2, 3].map(|k| 0.5 * (w[0][k] + w[1][k]));
+                let m = correct(&a, &b, middle, Corrector::Auto, 1e-12, None).unwrap().at;
+                let [p, q, r] = [w[0], m, w[1]].map(|at| a.evaluate(at[0], at[1]));
+                assert!(footpoint::march::distance_to_chord(q, p, r) <= 1.02 * chord);
+            }
+        }
+        // Ten times as fine takes about sqrt(10) times the points.
+        assert!(counts[2] < 6 * counts[1] && counts[2] > counts[1], "{counts:?}");
+    }
+    let far = [[0.1, 0.2, 0.3, 0.4], [0.6, 0.7, 0.9, 0.1]];
+    assert!(refined(&a, &b, &far, Corrector::NewtonThree(0), 1e-12).is_none());
+}
+
+/// A step of four parameters that is cut off at the borders, as textbooks have it: no parameter is held.
+fn cut_off(a: &Surface, b: &Surface, at: [f64; 4]) -> [f64; 4] {
+    let (mut p, mut q) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
+    a.partials(at[0], at[1], 1, &mut p);
+    b.partials(at[2], at[3], 1, &mut q);
+    let c = [p[1], p[2], q[1].map(|x| -x), q[2].map(|x| -x)];
+    let f: Vec<f64> = (0..3).map(|i| p[0][i] - q[0][i]).collect();
+    // J J^T y = -f by Cramer's rule, then J^T y.
+    let m = |i: usize, j: usize| c.iter().map(|v| v[i] * v[j]).sum::<f64>();
+    let det = |m: [[f64; 3]; 3]| {
+        m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])
+            - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
+            + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])
+    };
+    let whole: [[f64; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| m(i, j)));
+    let y: [f64; 3] = std::array::from_fn(|k| {
+        let mut n = whole;
+        (0..3).for_each(|i| n[i][k] = -f[i]);
+        det(n) / det(whole)
+    });
+    std::array::from_fn(|k| (at[k] + (0..3).map(|i| c[k][i] * y[i]).sum::<f64>()).clamp(0.0, 1.0))
+}
+
+#[test]
+fn four_parameters_stick_at_a_border_unless_it_holds_one() {
+    // The curve leaves a wavy sheet through u = 0; starts lie beside the border, their nearest points of the longer curve beyond it.
+    let mut seed = 7;
+    let a = random_sheet(&mut seed, 0.0);
+    let mut b = random_sheet(&mut seed, 0.5);
+    let (mut held, mut stuck, mut starts) = (0, 0, 0);
+    for round in 0..6 {
+        let found = intersect(
+            &IndexedSurface::new(a.clone()),
+            &IndexedSurface::new(b.clone()),
+            &MarchOptions::default(),
+            &mut |_, _| false,
+        )
+        .unwrap();
+        for branch in &found.branches {
+            for (end, k) in branch.ends.iter().zip([0, branch.points.len() - 1]) {
+                let footpoint::march::End::Border(side) = *end else { continue };
+                let p = branch.points[k];
+                let at = [p.uv[0], p.uv[1], p.st[0], p.st[1]];
+                for n in 0..8 {
+                    let by = |c: u32| 0.03 * (f64::from((n * (c + 3) + c) % 8) / 3.5 - 1.0);
+                    let mut start: [f64; 4] =
+                        std::array::from_fn(|c| (at[c] + by(c as u32)).clamp(0.0, 1.0));
+                    start[usize::from(side) / 2] = at[usize::from(side) / 2];
+                    starts += 1;
+                    if let Some(found) = correct(&a, &b, start, Corrector::Auto, 1e-11, None) {
+                        assert!(found.at.iter().all(|x| (0.0..=1.0).contains(x)));
+                        held += 1;
+                    }
+                    let end = (0..50).fold(start, |at, _| cut_off(&a, &b, at));
+                    let (x, y) = (a.evaluate(end[0], end[1]), b.evaluate(end[2], end[3]));
+                    stuck += usize::from((0..3).any(|i| (x[i] - y[i]).abs() > 1e-9));
+                }
+            }
+        }
+        b = random_sheet(&mut seed, 0.3 + 0.1 * f64::from(round));
+    }
+    println!(
+        "{starts} starts at borders: {held} solved with a held border, {stuck} stuck when cut off"
+    );
+    assert!(starts > 50 && held == starts, "{held} of {starts}");
+    assert!(stuck > 0);
+}
+
+#[test]
+fn a_fit_is_proven_and_a_fairer_one_stays_near_both_surfaces() {
+    use footpoint::fair::{CurveFairing, fair_curve};
+    use footpoint::pcurve::compose::Composer;
+    use footpoint::pcurve::deviation::deviation;
+    let a = IndexedSurface::new(cylinder(1.0, 2.0));
+    let b = IndexedSurface::new(moved(&cylinder(0.6, 2.0), &z_to_x([0.0; 3])));
+    let found = intersect(&a, &b, &MarchOptions::default(), &mut |_, _| false).unwrap();
+    for tolerance in [1e-4, 1e-7] {
+        for branch in &found.branches {
+            for part in curves(&a, &b, &branch.points, tolerance).unwrap() {
+                assert!(part.error <= tolerance, "{:e} for {tolerance:e}", part.error);
+                let (low, high) = part.space.domain();
+                for n in 0..=300 {
+                    let t = (low + (high - low) * f64::from(n) / 300.0).min(high);
+                    let p = part.space.evaluate(t);
+                    let far = (p[0].hypot(p[1]) - 1.0).abs().max((p[1].hypot(p[2]) - 0.6).abs());
+                    assert!(far <= part.error * (1.0 + 1e-9) + 1e-15, "{far:e} {:e}", part.error);
+                }
+                // Smooth by energy: how far it moved is bounded, so is its distance from both surfaces.
+                let fairing = CurveFairing::new(10.0 * tolerance);
+                let fair = fair_curve(&part.space, &fairing, &mut || false).unwrap().shape;
+                let whole = [low, high];
+                let bound = deviation(&mut Composer::new(a.surface()), &part.uv, &fair, whole, 0.0);
+                assert!(bound.unwrap().bound <= 11.0 * tolerance);
+            }
+        }
+    }
 }

@@ -1,9 +1,13 @@
 // What OpenMesh's smoother and OpenCASCADE's plate make of a grid of noisy points: peers N DEVIATION <points >points
 // Input: N x N points, x y z each, v fastest. Output: a line "NAME MILLISECONDS", then as many points; for each peer.
+// What OpenCASCADE's battens make of two ends and their angles with the chord: peers X1 Y1 X2 Y2 A1 A2 >points, 401 points each.
 // OpenMesh first: OpenCASCADE makes a macro of the name Handle.
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Smoother/JacobiLaplaceSmootherT.hh>
 
+#include <FairCurve_Batten.hxx>
+#include <FairCurve_MinimalVariation.hxx>
+#include <Geom2d_BSplineCurve.hxx>
 #include <GeomPlate_BuildPlateSurface.hxx>
 #include <GeomPlate_MakeApprox.hxx>
 #include <GeomPlate_PointConstraint.hxx>
@@ -87,10 +91,38 @@ void plate(const std::vector<OpenMesh::Vec3d> &points, double deviation) {
     print("GeomPlate", time, out);
 }
 
+// A batten of OpenCASCADE: its length is free.
+void batten(const char *name, FairCurve_Batten &curve, double a1, double a2) {
+    curve.SetAngle1(a1);
+    curve.SetAngle2(a2);
+    curve.SetFreeSliding(Standard_True);
+    FairCurve_AnalysisCode code;
+    const double start = now();
+    const bool done = curve.Compute(code, 500, 1e-8);
+    const double time = now() - start;
+    if (!done) std::fprintf(stderr, "%s: not computed, code %d\n", name, static_cast<int>(code));
+    const Handle(Geom2d_BSplineCurve) spline = curve.Curve();
+    std::vector<OpenMesh::Vec3d> out;
+    for (int k = 0; k <= 400; k++) {
+        const double u = spline->FirstParameter() + (spline->LastParameter() - spline->FirstParameter()) * k / 400;
+        const gp_Pnt2d p = spline->Value(u);
+        out.push_back(OpenMesh::Vec3d(p.X(), p.Y(), 0));
+    }
+    print(name, time, out);
+}
+
 } // namespace
 
 int main(int argc, char **argv) {
-    if (argc != 3) return std::fprintf(stderr, "usage: peers N DEVIATION <points\n"), 2;
+    if (argc == 7) {
+        const gp_Pnt2d a(std::atof(argv[1]), std::atof(argv[2])), b(std::atof(argv[3]), std::atof(argv[4]));
+        FairCurve_Batten plain(a, b, 1.0);
+        batten("Batten", plain, std::atof(argv[5]), std::atof(argv[6]));
+        FairCurve_MinimalVariation least(a, b, 1.0);
+        batten("MinimalVariation", least, std::atof(argv[5]), std::atof(argv[6]));
+        return 0;
+    }
+    if (argc != 3) return std::fprintf(stderr, "usage: peers N DEVIATION <points, or peers X1 Y1 X2 Y2 A1 A2\n"), 2;
     const int n = std::atoi(argv[1]);
     const double deviation = std::atof(argv[2]);
     std::vector<OpenMesh::Vec3d> points;

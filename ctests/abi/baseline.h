@@ -175,11 +175,15 @@ typedef enum fpt_face_standing {
     FPT_FACE_ON_EDGE = 2,
     FPT_FACE_UNKNOWN = 3,
 } fpt_face_standing;
+typedef enum fpt_standing_flag {
+    FPT_STANDING_NOT_PROVEN = 1,
+} fpt_standing_flag;
 typedef enum fpt_branch_end {
     FPT_BRANCH_END_CLOSED = 0,
     FPT_BRANCH_END_BORDER = 1,
     FPT_BRANCH_END_CONTACT = 2,
     FPT_BRANCH_END_UNDECIDED = 3,
+    FPT_BRANCH_END_TRIM = 4,
 } fpt_branch_end;
 typedef enum fpt_section_end {
     FPT_SECTION_END_CLOSED = 0,
@@ -456,6 +460,13 @@ typedef struct fpt_joint {
     double tangent_angle;
     double curvature_jump;
 } fpt_joint;
+typedef struct fpt_knot_line {
+    double value;
+    uint32_t multiplicity;
+    uint32_t order;
+    double gap;
+    double first_jump;
+} fpt_knot_line;
 typedef struct fpt_fit_options {
     size_t struct_size;
     double tolerance;
@@ -550,12 +561,13 @@ typedef struct fpt_change_summary {
     double deviation;
     double surface_deviation;
     uint32_t proven;
-    uint32_t reserved;
+    uint32_t surface_proven;
 } fpt_change_summary;
 typedef struct fpt_trim_summary {
     double tolerance;
     double largest_opening;
     double largest_gap;
+    double gap_bound;
     double segment_error;
     uint32_t proven;
     uint32_t reserved;
@@ -593,6 +605,13 @@ typedef struct fpt_deviation {
     uint32_t flags;
     uint32_t reserved;
 } fpt_deviation;
+typedef struct fpt_face_options {
+    size_t struct_size;
+    uint64_t budget;
+    int (*should_stop)(void *user);
+    void (*progress)(void *user, size_t done, size_t total);
+    void *user;
+} fpt_face_options;
 typedef struct fpt_face_data {
     size_t struct_size;
     const struct fpt_surface *surface;
@@ -604,7 +623,7 @@ typedef struct fpt_face_place {
     uint32_t standing;
     uint32_t loop_index;
     uint32_t coedge_index;
-    uint32_t reserved;
+    uint32_t flags;
     double parameter;
 } fpt_face_place;
 typedef struct fpt_intersect_surfaces_options {
@@ -627,8 +646,11 @@ typedef struct fpt_intersection_summary {
 typedef struct fpt_intersection_branch {
     size_t point_count;
     double gap;
+    double chord;
     uint32_t is_tangential;
+    uint32_t bounds_overlap;
     uint32_t is_closed;
+    uint32_t reserved;
     uint32_t end_kind[2];
     uint32_t end_index[2];
 } fpt_intersection_branch;
@@ -652,6 +674,8 @@ typedef struct fpt_inspect_options {
     uint64_t budget;
     int (*should_stop)(void *user);
     void *user;
+    uint32_t side;
+    uint32_t reserved;
 } fpt_inspect_options;
 typedef struct fpt_inspect_picture_options {
     size_t struct_size;
@@ -701,6 +725,7 @@ typedef struct fpt_inspect_range {
     double at_least[2];
     double at_greatest[2];
     double excluded;
+    double moved;
     uint64_t boxes;
     uint32_t proven;
     uint32_t reserved;
@@ -1521,6 +1546,24 @@ fpt_status fpt_curve_from_power(size_t degree,
                                 double end,
                                 const double *coefficients,
                                 struct fpt_curve **out);
+FPT_MUST_USE
+fpt_status fpt_surface_continuity(const struct fpt_surface *surface,
+                                  uint32_t direction,
+                                  double tolerance,
+                                  size_t capacity,
+                                  struct fpt_knot_line *out,
+                                  size_t *out_count);
+FPT_MUST_USE
+fpt_status fpt_surface_power(const struct fpt_surface *surface,
+                             size_t capacity,
+                             double *out,
+                             size_t *out_count);
+FPT_MUST_USE
+fpt_status fpt_surface_from_power(size_t degree_u,
+                                  size_t degree_v,
+                                  const double *domain,
+                                  const double *coefficients,
+                                  struct fpt_surface **out);
 void fpt_fit_options_init(struct fpt_fit_options *options, size_t struct_size);
 FPT_MUST_USE
 fpt_status fpt_fit_parameters(const double *points,
@@ -1769,6 +1812,12 @@ fpt_status fpt_transform_apply(const struct fpt_transform *transform,
                                double *out);
 void fpt_transform_free(struct fpt_transform *transform);
 FPT_MUST_USE
+fpt_status fpt_curve_arc_by_angle(const double *center,
+                                  const double *first,
+                                  const double *second,
+                                  const double *angles,
+                                  struct fpt_curve **out);
+FPT_MUST_USE
 fpt_status fpt_support_new(const struct fpt_surface *surface,
                            struct fpt_support **out);
 FPT_MUST_USE
@@ -1947,11 +1996,14 @@ fpt_status fpt_pcurve_deviation(const struct fpt_surface *surface,
                                 const struct fpt_curve *pcurve,
                                 const struct fpt_curve *curve,
                                 struct fpt_deviation *out);
+void fpt_face_options_init(struct fpt_face_options *options, size_t struct_size);
 FPT_MUST_USE
 fpt_status fpt_face_new(const struct fpt_face_data *data,
+                        const struct fpt_face_options *options,
                         struct fpt_face **out);
 FPT_MUST_USE
 fpt_status fpt_face_of_trim(const struct fpt_trim *trim,
+                            const struct fpt_face_options *options,
                             struct fpt_face **out);
 void fpt_face_free(struct fpt_face *face);
 FPT_MUST_USE
@@ -1980,6 +2032,11 @@ fpt_status fpt_intersect_surfaces(const struct fpt_surface *a,
                                   const struct fpt_surface *b,
                                   const struct fpt_intersect_surfaces_options *options,
                                   struct fpt_surface_intersection **out);
+FPT_MUST_USE
+fpt_status fpt_intersect_trims(const struct fpt_trim *a,
+                               const struct fpt_trim *b,
+                               const struct fpt_intersect_surfaces_options *options,
+                               struct fpt_surface_intersection **out);
 FPT_MUST_USE
 fpt_status fpt_surface_intersection_summary(const struct fpt_surface_intersection *intersection,
                                             struct fpt_intersection_summary *out);
@@ -2014,6 +2071,14 @@ fpt_status fpt_surface_intersection_curves(const struct fpt_surface_intersection
                                            size_t *out_count,
                                            struct fpt_curve **out_curves,
                                            double *out_error);
+FPT_MUST_USE
+fpt_status fpt_surface_intersection_split(const struct fpt_surface_intersection *intersection,
+                                          const struct fpt_trim *trim,
+                                          uint32_t which,
+                                          double tolerance,
+                                          size_t capacity,
+                                          struct fpt_trim **out_trims,
+                                          size_t *out_count);
 void fpt_surface_intersection_free(struct fpt_surface_intersection *intersection);
 void fpt_inspect_options_init(struct fpt_inspect_options *options, size_t struct_size);
 void fpt_inspect_picture_options_init(struct fpt_inspect_picture_options *options,

@@ -7,17 +7,17 @@ weak answer is no error but a record whose flags say so.
 Every call releases the GIL and uses all cores unless `threads` says otherwise; Ctrl-C ends a query.
 """
 
-from . import construct, convert, fair, inspect, intersect, operate, pcurve, trims, weights
-from ._face import Face, Standing
+from . import construct, convert, draw, fair, inspect, intersect, operate, pcurve, trims, weights
+from ._face import Face, Standing, StandingFlag
 from ._feet import Feet, Flag, FootSet, Kind, Method, Nature, NormalFlag, PathChange, Scope
 from ._library import Cancelled, abi_version, version
 from ._scene import NO_MEMBER, Scene
 from ._shapes import Curve, Surface
 from .convert import from_freecad, from_geomdl, from_occ, from_splinepy
-from .intersection import BranchEnd, ContactKind, Intersection, intersect_surfaces
+from .intersection import BranchEnd, ContactKind, Intersection, intersect_surfaces, intersect_trims
 
 __version__ = version()
 __all__ = ["BranchEnd", "Cancelled", "ContactKind", "Curve", "Face", "Feet", "Flag", "FootSet", "Intersection", "Kind",
-           "Method", "NO_MEMBER", "Nature", "NormalFlag", "PathChange", "Scene", "Scope", "Standing", "Surface",
-           "abi_version", "construct", "convert", "fair", "from_freecad", "from_geomdl", "from_occ", "from_splinepy",
-           "inspect", "intersect", "intersect_surfaces", "operate", "pcurve", "trims", "version", "weights"]
+           "Method", "NO_MEMBER", "Nature", "NormalFlag", "PathChange", "Scene", "Scope", "Standing", "StandingFlag", "Surface",
+           "abi_version", "construct", "convert", "draw", "fair", "from_freecad", "from_geomdl", "from_occ", "from_splinepy",
+           "inspect", "intersect", "intersect_surfaces", "intersect_trims", "operate", "pcurve", "trims", "version", "weights"]

@@ -136,7 +136,7 @@ class ChangeOptions(ctypes.Structure):
 
 
 class ChangeSummary(ctypes.Structure):
-    _fields_ = [("deviation", c_double), ("surface_deviation", c_double), ("proven", c_uint32), ("reserved", c_uint32)]
+    _fields_ = [("deviation", c_double), ("surface_deviation", c_double), ("proven", c_uint32), ("surface_proven", c_uint32)]
 
 
 class Difference(ctypes.Structure):
@@ -157,14 +157,18 @@ class Joint(ctypes.Structure):
                 ("tangent_angle", c_double), ("curvature_jump", c_double)]
 
 
+class KnotLine(ctypes.Structure):
+    _fields_ = [("value", c_double), ("multiplicity", c_uint32), ("order", c_uint32), ("gap", c_double), ("first_jump", c_double)]
+
+
 class TrimFinding(ctypes.Structure):
     _fields_ = [("kind", c_uint32), ("reserved", c_uint32), ("loop_index", c_size_t), ("coedge", c_size_t), ("parameter", c_double),
                 ("other_loop", c_size_t), ("other_coedge", c_size_t), ("other_parameter", c_double), ("numbers", c_double * 3)]
 
 
 class TrimSummary(ctypes.Structure):
-    _fields_ = [("tolerance", c_double), ("largest_opening", c_double), ("largest_gap", c_double), ("segment_error", c_double),
-                ("proven", c_uint32), ("reserved", c_uint32), ("finding_count", c_size_t)]
+    _fields_ = [("tolerance", c_double), ("largest_opening", c_double), ("largest_gap", c_double), ("gap_bound", c_double),
+                ("segment_error", c_double), ("proven", c_uint32), ("reserved", c_uint32), ("finding_count", c_size_t)]
 
 
 class FitOptions(ctypes.Structure):
@@ -194,13 +198,18 @@ class LiftOptions(ctypes.Structure):
 
 
 class FacePlace(ctypes.Structure):
-    _fields_ = [("standing", c_uint32), ("loop_index", c_uint32), ("coedge_index", c_uint32), ("reserved", c_uint32),
+    _fields_ = [("standing", c_uint32), ("loop_index", c_uint32), ("coedge_index", c_uint32), ("flags", c_uint32),
                 ("parameter", c_double)]
 
 
 class FaceData(ctypes.Structure):
     _fields_ = [("struct_size", c_size_t), ("surface", c_void_p), ("loop_count", c_size_t), ("coedge_counts", c_void_p),
                 ("pcurves", c_void_p)]
+
+
+class FaceOptions(ctypes.Structure):
+    _fields_ = [("struct_size", c_size_t), ("budget", c_uint64), ("should_stop", StopFunction), ("progress", ProgressFunction),
+                ("user", c_void_p)]
 
 
 class IntersectSurfacesOptions(ctypes.Structure):
@@ -214,8 +223,9 @@ class IntersectionSummary(ctypes.Structure):
 
 
 class IntersectionBranch(ctypes.Structure):
-    _fields_ = [("point_count", c_size_t), ("gap", c_double), ("is_tangential", c_uint32), ("is_closed", c_uint32),
-                ("end_kind", c_uint32 * 2), ("end_index", c_uint32 * 2)]
+    _fields_ = [("point_count", c_size_t), ("gap", c_double), ("chord", c_double), ("is_tangential", c_uint32),
+                ("bounds_overlap", c_uint32), ("is_closed", c_uint32), ("reserved", c_uint32), ("end_kind", c_uint32 * 2),
+                ("end_index", c_uint32 * 2)]
 
 
 class IntersectionPoint(ctypes.Structure):
@@ -239,7 +249,7 @@ class FairSummary(ctypes.Structure):
 
 class InspectOptions(ctypes.Structure):
     _fields_ = [("struct_size", c_size_t), ("domain", c_double * 4), ("relative", c_double), ("accuracy", c_double), ("budget", c_uint64),
-                ("should_stop", StopFunction), ("user", c_void_p)]
+                ("should_stop", StopFunction), ("user", c_void_p), ("side", c_uint32), ("reserved", c_uint32)]
 
 
 class InspectPictureOptions(ctypes.Structure):
@@ -249,7 +259,7 @@ class InspectPictureOptions(ctypes.Structure):
 
 class InspectRange(ctypes.Structure):
     _fields_ = [("least", c_double * 2), ("greatest", c_double * 2), ("at_least", c_double * 2), ("at_greatest", c_double * 2),
-                ("excluded", c_double), ("boxes", c_uint64), ("proven", c_uint32), ("reserved", c_uint32)]
+                ("excluded", c_double), ("moved", c_double), ("boxes", c_uint64), ("proven", c_uint32), ("reserved", c_uint32)]
 
 
 class InspectTooth(ctypes.Structure):
@@ -326,9 +336,9 @@ STRUCTS: dict[str, type[ctypes.Structure]] = {
     "fpt_relation_callback": RelationCallback, "fpt_elementary_data": ElementaryData, "fpt_coedge_data": CoedgeData,
     "fpt_loop_data": LoopData, "fpt_edge_data": EdgeData, "fpt_trim_data": TrimData, "fpt_change_options": ChangeOptions,
     "fpt_change_summary": ChangeSummary, "fpt_trim_finding": TrimFinding, "fpt_trim_summary": TrimSummary,
-    "fpt_difference": Difference, "fpt_estimate": Estimate, "fpt_curve_frame_record": CurveFrame, "fpt_joint": Joint,
+    "fpt_difference": Difference, "fpt_estimate": Estimate, "fpt_curve_frame_record": CurveFrame, "fpt_joint": Joint, "fpt_knot_line": KnotLine,
     "fpt_deviation": Deviation, "fpt_pull_options": PullOptions, "fpt_lift_options": LiftOptions, "fpt_face_place": FacePlace,
-    "fpt_face_data": FaceData,
+    "fpt_face_data": FaceData, "fpt_face_options": FaceOptions,
     "fpt_intersect_surfaces_options": IntersectSurfacesOptions, "fpt_intersection_summary": IntersectionSummary,
     "fpt_intersection_branch": IntersectionBranch, "fpt_intersection_point": IntersectionPoint,
     "fpt_intersection_contact": IntersectionContact,
@@ -399,11 +409,13 @@ _STATUS = {
     "surface_isocurve": "pIdp", "surface_join": "pzIdpp", "surface_make_compatible": "pzp", "surface_difference": "ppp",
     "arc_length_new": "pdp", "arc_length_total": "pp", "arc_length_at": "ppzp", "arc_length_parameters": "ppzp",
     "curve_frame": "pdip", "curve_continuity": "pdzpp", "curve_power": "pzpp", "curve_from_power": "zddpp",
+    "surface_continuity": "pIdzpp", "surface_power": "pzpp", "surface_from_power": "zzppp",
     "pcurve_pull": "pppp", "pcurve_set_count": "pp", "pcurve_set_get": "pzpp", "pcurve_lift": "ppppp", "pcurve_deviation": "pppp",
-    "face_new": "pp", "face_of_trim": "pp", "face_classify": "ppzpp", "face_closest": "ppzppp", "face_preimage": "ppdpp",
+    "curve_arc_by_angle": "ppppp", "face_new": "ppp", "face_of_trim": "ppp", "face_classify": "ppzpp", "face_closest": "ppzppp", "face_preimage": "ppdpp",
     "intersect_surfaces": "pppp", "surface_intersection_summary": "pp", "surface_intersection_branch": "pzp",
     "surface_intersection_points": "pzzp", "surface_intersection_contact": "pzp", "surface_intersection_overlap": "pzp",
-    "surface_intersection_undecided": "pzp", "surface_intersection_curves": "pppzdzppp",
+    "surface_intersection_undecided": "pzp", "surface_intersection_curves": "pppzdzppp", "intersect_trims": "pppp",
+    "surface_intersection_split": "ppIdzpp",
     "fair_curve": "ppp", "fair_surface": "ppp", "fair_report_summary": "pp", "fair_report_energies": "pzp", "fair_report_curve": "pp",
     "fair_report_surface": "pp", "inspect_curve_range": "ppp", "inspect_surface_range": "pIpp", "inspect_comb": "ppzp",
     "inspect_curvatures": "ppzp", "inspect_monotone_pieces": "pp", "inspect_inflections": "ppp", "inspect_umbilics": "ppp",
@@ -423,7 +435,7 @@ _OTHER = {
     "surface_free": ("p", None), "foot_set_free": ("p", None), "scene_free": ("p", None),
     "change_options_init": ("pz", None), "relation_free": ("p", None), "transform_free": ("p", None), "support_free": ("p", None),
     "trim_free": ("p", None), "arc_length_free": ("p", None), "trim_report_free": ("p", None),
-    "pull_options_init": ("pz", None), "lift_options_init": ("pz", None), "pcurve_set_free": ("p", None), "face_free": ("p", None),
+    "pull_options_init": ("pz", None), "face_options_init": ("pz", None), "lift_options_init": ("pz", None), "pcurve_set_free": ("p", None), "face_free": ("p", None),
     "intersect_surfaces_options_init": ("pz", None), "surface_intersection_free": ("p", None),
     "fair_options_init": ("pz", None), "fair_report_free": ("p", None), "inspect_options_init": ("pz", None),
     "inspect_picture_options_init": ("pz", None), "inspect_set_free": ("p", None),

@@ -385,6 +385,7 @@ class InspectOptions(TypedDict, total=False):
     relative     allowed gap of a range, as a share of its size; default 1e-3
     accuracy     length: allowed gap of a distance; 0: 1e-3 of the diagonal of the first shape
     budget       most boxes; 0: the default
+    side         a `Side`: which extremes of a range must have the gap
     should_stop  called without arguments now and then; a true result ends the call with `Cancelled`
     """
 
@@ -392,6 +393,7 @@ class InspectOptions(TypedDict, total=False):
     relative: float
     accuracy: float
     budget: int
+    side: int
     should_stop: "Callable[[], object] | None"
 
 
@@ -400,10 +402,5 @@ _OPTIONS: dict[Any, tuple[str, Any]] = {
     lib.WeightsOptions: ("weights_options_init", WeightsOptions),
     lib.IntersectSurfacesOptions: ("intersect_surfaces_options_init", IntersectSurfacesOptions), lib.PullOptions: ("pull_options_init", PullOptions),
     lib.FairOptions: ("fair_options_init", FairOptions), lib.InspectOptions: ("inspect_options_init", InspectOptions)}
-_INTEGERS = {"method": 2**32 - 1, "scope": 2**32 - 1, "threads": 2**32 - 1, "budget": 2**64 - 1, "nearest": 2**63 - 1, "degree": 31, "pole_limit": 2**63 - 1, "steps": 2**32 - 1,
-
-
-    lib.WeightsOptions: ("weights_options_init", WeightsOptions), lib.FairOptions: ("fair_options_init", FairOptions),
-    lib.InspectOptions: ("inspect_options_init", InspectOptions)}
-_INTEGERS = {"method": 2**32 - 1, "scope": 2**32 - 1, "threads": 2**32 - 1, "budget": 2**64 - 1, "nearest": 2**63 - 1, "steps": 2**32 - 1,
-             "starts": 2**32 - 1, "seed": 2**64 - 1}
+_INTEGERS = {"method": 2**32 - 1, "scope": 2**32 - 1, "threads": 2**32 - 1, "budget": 2**64 - 1, "nearest": 2**63 - 1, "degree": 31,
+             "pole_limit": 2**63 - 1, "steps": 2**32 - 1, "side": 2**32 - 1, "starts": 2**32 - 1, "seed": 2**64 - 1}

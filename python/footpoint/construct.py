@@ -76,10 +76,10 @@ class Distances(NamedTuple):
     """How far the data points are from a shape, in the unit of the poles.
 
     worst        no data point is farther away
-    at_least     proven: some data point is at least that far away; 0 when feet were not asked for
-    rms          root of the mean of the squares
+    at_least     proven: some data point is at least that far away, `worst` up to the accuracy of queries; 0 when feet were not asked for
+    rms          root of the mean of the squares, to the places that were found
     worst_index  the data point with the distance `worst`
-    unproven     data points whose distance is an upper bound only
+    unproven     data points that may be farther away than at_least: no nearer place was found, and none excluded
     """
 
     worst: float
@@ -90,7 +90,7 @@ class Distances(NamedTuple):
 
 
 class Swept(NamedTuple):
-    """A swept surface, its greatest distance from the exact one at dense samples, and the turn of the frame around a closed spine."""
+    """A swept surface, its proven error (no point is farther from the exact one), and the turn of the frame around a closed spine."""
 
     surface: Surface
     error: float
@@ -218,7 +218,7 @@ def fit_grid(points: ArrayLike, tolerance: float, degrees: Sequence[int] = (3, 3
              certify: bool = True, threads: int = 0, should_stop: Callable[[], object] | None = None) -> tuple[Surface, Distances]:
     """A surface near a grid of points, shape (nu, nv, 3): knots are added until no point is farther away than the tolerance at its parameters.
 
-    certify  ask for the feet of all points, with proof; False: distances are those at the parameters, upper bounds (eight times as fast)
+    certify  find how far the points are from their feet, and prove how far the worst is; False: distances are those at the parameters
     """
     rows = _points(points, 3)
     options, _kept = _options(tolerance, degrees, spacing=integer("spacing", spacing), max_poles=integer("max_poles", max_poles),

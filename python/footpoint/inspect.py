@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     from ._query import InspectOptions
 
-__all__ = ["Continuity", "Distance", "Kind", "Measured", "Pattern", "Picture", "Quantity", "Range", "border", "comb", "comb_svg", "curvature_range",
+__all__ = ["Continuity", "Distance", "Kind", "Measured", "Pattern", "Picture", "Quantity", "Range", "Side", "border", "comb", "comb_svg", "curvature_range",
            "curvatures", "hausdorff", "inflections", "monotone_pieces", "picture", "umbilics"]
 
 
@@ -42,6 +42,14 @@ class Quantity(IntEnum):
     MEAN = 2
     GAUSSIAN = 3
     SHARPEST = 4
+
+
+class Side(IntEnum):
+    """Which extremes of a range are looked for: both, the least or the greatest; what is known of the other one is true, but loose."""
+
+    BOTH = 0
+    LEAST = 1
+    GREATEST = 2
 
 
 class Pattern(IntEnum):
@@ -85,7 +93,9 @@ class Range:
     greatest     something is not less than greatest[0]; nothing is greater than greatest[1]
     at_least, at_greatest
                  parameters where the inner bounds are attained
-    excluded     share of the domain of which nothing is proven (beside collapsed edges and cusps); the bounds hold for the rest
+    excluded     share of the domain of which nothing is proven (beside tips and cusps); the bounds hold for the rest
+    moved        0: the bounds are those of the shape; otherwise those of a shape from which no point of this one is farther than this
+                 length, which is rounding (beside a pole the rounding of coordinates alone makes curvatures infinite)
     boxes        boxes looked at
     proven       whether both gaps are the allowed ones and nothing is excluded
     """
@@ -95,6 +105,7 @@ class Range:
     at_least: tuple[float, float]
     at_greatest: tuple[float, float]
     excluded: float
+    moved: float
     boxes: int
     proven: bool
 
@@ -163,7 +174,7 @@ def curvature_range(shape: Curve | Surface, quantity: int = Quantity.SHARPEST, *
     """The range of a curvature over a shape or a part of it, proven: no sampling.
 
     quantity  surfaces: a `Quantity`; of curves the curvature is meant
-    options   see `InspectOptions`; domain, relative, budget, should_stop count
+    options   see `InspectOptions`; domain, relative, budget, side, should_stop count
     """
     call, out = _call(shape, options), lib.InspectRange()
     if isinstance(shape, Curve):
@@ -172,7 +183,7 @@ def curvature_range(shape: Curve | Surface, quantity: int = Quantity.SHARPEST, *
         kind = integer("quantity", quantity)
         status = lib.call("inspect_surface_range", _is(Surface, shape)._handle, kind, call.pointer, ctypes.addressof(out))
     call.finish(status)
-    return Range(tuple(out.least), tuple(out.greatest), tuple(out.at_least), tuple(out.at_greatest), out.excluded, out.boxes, bool(out.proven))
+    return Range(tuple(out.least), tuple(out.greatest), tuple(out.at_least), tuple(out.at_greatest), out.excluded, out.moved, out.boxes, bool(out.proven))
 
 
 def comb(curve: Curve, parameters: ArrayLike | None = None) -> np.ndarray:

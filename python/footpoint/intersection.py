@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _library as lib
-from ._query import Call, address, real
+from ._query import Call, address, integer, real
 from ._shapes import Curve, Surface
+from .trims import TrimmedSurface, _owner
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -28,6 +29,7 @@ class BranchEnd(IntEnum):
     BORDER = 1
     CONTACT = 2
     UNDECIDED = 3
+    TRIM = 4
 
 
 class ContactKind(IntEnum):
@@ -47,8 +49,11 @@ class Branch:
     points         records of `POINT` in order; at a seam the same point comes twice, with the parameters of either side
     is_closed      its first point comes again as the last
     is_tangential  the surfaces touch along it
-    ends           (kind, index) of both ends; index: the side 0 to 7 (u low, u high, v low, v high of A, then of B), or the contact
+    ends           (kind, index) of both ends; index: the side 0 to 7 (u low, u high, v low, v high of A, then of B), the contact, or
+                   0 for a trim of A, 1 for one of B
     gap            greatest distance between the two surface points of a point
+    chord          proven: between two points the branch stays within this of their chord; infinite where nothing is proven
+    bounds_overlap it bounds an area in which the surfaces coincide
     """
 
     points: np.ndarray
@@ -56,6 +61,8 @@ class Branch:
     is_tangential: bool
     ends: tuple[tuple[BranchEnd, int], tuple[BranchEnd, int]]
     gap: float
+    chord: float
+    bounds_overlap: bool
 
 
 @dataclass(frozen=True)
@@ -70,7 +77,7 @@ class Contact:
 
 @dataclass(frozen=True)
 class BranchCurves:
-    """A branch, or its part between two seams, as curves with one parameter; `error` was measured at 16 places a span."""
+    """A branch, or its part between two seams, as curves with one parameter; `error` is proven."""
 
     space: Curve
     uv: Curve
@@ -79,7 +86,7 @@ class BranchCurves:
 
 
 class Intersection:
-    """What `intersect_surfaces` found.
+    """What `intersect_surfaces` or `intersect_trims` found.
 
     branches, contacts   lists
     overlaps, undecided  arrays (n, 8): ends of u, v of A, of u, v of B
@@ -88,8 +95,8 @@ class Intersection:
     pairs                pairs of parts judged
     """
 
-    def __init__(self, handle: ctypes.c_void_p, a: Surface, b: Surface):
-        self._handle, self._surfaces = handle, (a, b)
+    def __init__(self, handle: ctypes.c_void_p, a: Surface | TrimmedSurface, b: Surface | TrimmedSurface):
+        self._handle, self._shapes = handle, (a, b)
         summary = lib.IntersectionSummary()
         lib.call("surface_intersection_summary", handle, ctypes.addressof(summary))
         self.is_proven, self.is_exhausted, self.pairs = bool(summary.is_proven), bool(summary.is_exhausted), int(summary.pairs)
@@ -109,7 +116,8 @@ class Intersection:
         points = np.zeros(record.point_count, POINT)
         lib.call("surface_intersection_points", self._handle, index, len(points), address(points))
         first, last = ((BranchEnd(kind), int(at)) for kind, at in zip(record.end_kind, record.end_index))
-        return Branch(points, bool(record.is_closed), bool(record.is_tangential), (first, last), record.gap)
+        return Branch(points, bool(record.is_closed), bool(record.is_tangential), (first, last), record.gap, record.chord,
+                      bool(record.bounds_overlap))
 
     def _contact(self, index: int) -> Contact:
         record = lib.IntersectionContact()
@@ -124,11 +132,13 @@ class Intersection:
         return boxes
 
     def curves(self, branch: int, tolerance: float) -> list[BranchCurves]:
-        """A branch as cubic B-splines in space and in both domains (z = 0): one set for each part between two seams.
+        """A branch as cubic B-splines in space and in both domains (z = 0): one set for each part between two seams. Of surfaces only.
 
         tolerance  length, > 0: what the fit aims at
         """
-        a, b = self._surfaces
+        a, b = self._shapes
+        if not (isinstance(a, Surface) and isinstance(b, Surface)):
+            raise TypeError("curves: the branches are those of faces; ask for their surfaces, or split the faces")
         parts: list[BranchCurves] = []
         count, error = ctypes.c_size_t(1), ctypes.c_double()
         while len(parts) < count.value:
@@ -137,6 +147,20 @@ class Intersection:
                      ctypes.byref(count), ctypes.addressof(out), ctypes.byref(error))
             parts.append(BranchCurves(*(_owned(handle) for handle in out), error.value))
         return parts
+
+    def split(self, which: int, tolerance: float) -> list[TrimmedSurface]:
+        """The faces into which the branches cut the first (0) or the second (1) face. Of faces only.
+
+        tolerance  length, > 0: within it ends of branches meet loops and one another
+        """
+        face = self._shapes[integer("which", which, most=1)]
+        if not isinstance(face, TrimmedSurface):
+            raise TypeError("split: the intersection is one of surfaces; make faces of them with TrimmedSurface.whole")
+        room = 2 + sum(len(loop.coedges) for loop in face.loops) + 4 * sum(len(branch.points) for branch in self.branches)
+        out, count = (ctypes.c_void_p * room)(), ctypes.c_size_t()
+        lib.call("surface_intersection_split", self._handle, face._handle, which, real("tolerance", tolerance), room,
+                 ctypes.addressof(out), ctypes.byref(count))
+        return [_owner(TrimmedSurface, out[k]) for k in range(count.value)]
 
     def __repr__(self) -> str:
         state = "proven" if self.is_proven else "not proven"
@@ -156,12 +180,25 @@ def intersect_surfaces(a: Surface, b: Surface, **options: Unpack[IntersectSurfac
     a, b     surfaces of knots and poles
     options  see `IntersectSurfacesOptions`
     """
-    for name, surface in (("a", a), ("b", b)):
-        if not isinstance(surface, Surface):
-            raise TypeError(f"{name}: a Surface is needed, not {type(surface).__name__}")
-    call = Call(dict(options), struct_type=lib.IntersectSurfacesOptions)
+    return _met("intersect_surfaces", Surface, a, b, dict(options))
+
+
+def intersect_trims(a: TrimmedSurface, b: TrimmedSurface, **options: Unpack[IntersectSurfacesOptions]) -> Intersection:
+    """All that two faces have in common: as `intersect_surfaces` of their supports, cut off at their trims. Supports may be elementary,
+    parameters are theirs; with one given by a function nothing is proven.
+
+    options  see `IntersectSurfacesOptions`
+    """
+    return _met("intersect_trims", TrimmedSurface, a, b, dict(options))
+
+
+def _met(name: str, kind: type, a: Any, b: Any, options: dict[str, Any]) -> Intersection:
+    for role, shape in (("a", a), ("b", b)):
+        if not isinstance(shape, kind):
+            raise TypeError(f"{role}: a {kind.__name__} is needed, not {type(shape).__name__}")
+    call = Call(options, struct_type=lib.IntersectSurfacesOptions)
     out = ctypes.c_void_p()
-    status = lib.call("intersect_surfaces", a._handle, b._handle, call.pointer, ctypes.byref(out))
+    status = lib.call(name, a._handle, b._handle, call.pointer, ctypes.byref(out))
     found = Intersection(out, a, b) if out.value else None
     call.finish(status)
     assert found is not None

@@ -31,7 +31,7 @@ from ._shapes import Curve, Surface
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-__all__ = ["ArcLength", "Difference", "Direction", "Frame", "Joint", "affine", "bezier_form", "clamp", "continuity", "derivative", "difference",
+__all__ = ["ArcLength", "Difference", "Direction", "Frame", "Joint", "KnotLine", "affine", "bezier_form", "clamp", "continuity", "derivative", "difference",
            "elevate", "frame", "from_power", "isocurve", "join", "make_compatible", "part", "periodic", "power", "projective", "reduce", "refine",
            "remove_knot", "reparametrise", "reverse", "simplify", "split", "swap", "unclamp", "with_domain"]
 
@@ -78,6 +78,16 @@ class Joint(NamedTuple):
     first_jump: float
     tangent_angle: float
     curvature_jump: float
+
+
+class KnotLine(NamedTuple):
+    """How the pieces of a surface meet along a knot line; `gap` and `first_jump` are bounds on the whole line."""
+
+    value: float
+    multiplicity: int
+    order: int
+    gap: float
+    first_jump: float
 
 
 def refine(shape: Shape, values: ArrayLike, direction: str | None = None) -> Shape:
@@ -222,26 +232,42 @@ def frame(curve: Curve, u: float, side: int = 1) -> Frame:
     return Frame(*vectors, found.speed, found.curvature, found.torsion)
 
 
-def continuity(curve: Curve, tolerance: float = 1e-9) -> list[Joint]:
-    """How the pieces meet at the knots inside the domain and, if the curve is closed, at the seam (reported at the end)."""
-    room = len(_curve(curve).knots)
-    records, count = (lib.Joint * room)(), ctypes.c_size_t()
-    _call(curve, "continuity", real("tolerance", tolerance), room, records, ctypes.byref(count))
-    return [Joint(*(getattr(record, name) for name in Joint._fields)) for record in records[:count.value]]
+def continuity(shape: Curve | Surface, tolerance: float = 1e-9, direction: str | None = None) -> list[Joint] | list[KnotLine]:
+    """How the pieces meet at the knots inside the domain and, if the shape is closed, at the seam (reported at the end); of a surface at the
+    knot lines of a direction, with bounds along each whole line.
+    """
+    where, curved = _along(shape, direction), isinstance(shape, Curve)
+    room = len(shape.knots if curved else shape.knots[where[0]])
+    record, kind = (lib.Joint, Joint) if curved else (lib.KnotLine, KnotLine)
+    records, count = (record * room)(), ctypes.c_size_t()
+    _call(shape, "continuity", *where, real("tolerance", tolerance), room, records, ctypes.byref(count))
+    return [kind(*(getattr(each, name) for name in kind._fields)) for each in records[:count.value]]
 
 
-def power(curve: Curve) -> np.ndarray:
-    """Powers of a local parameter, 0 to 1 on each span: (spans, degree + 1, 4) with w x, w y, w z, w."""
-    form = bezier_form(_curve(curve))
-    order = len(form.knots) - len(form.poles)
-    out, count = np.empty(((len(form.poles) - 1) // (order - 1), order, 4)), ctypes.c_size_t()
-    _call(curve, "power", out.size, address(out), ctypes.byref(count))
+def power(shape: Curve | Surface) -> np.ndarray:
+    """Powers of local parameters, 0 to 1 on each span, as w x, w y, w z, w: (spans, degree + 1, 4), of a surface (patches_u, patches_v,
+    degree_u + 1, degree_v + 1, 4).
+    """
+    form = bezier_form(shape)
+    knots = (form.knots,) if isinstance(form, Curve) else form.knots
+    orders = [len(t) - count for t, count in zip(knots, form.poles.shape)]
+    pieces = [(count - 1) // (order - 1) for count, order in zip(form.poles.shape, orders)]
+    out, count = np.empty((*pieces, *orders, 4)), ctypes.c_size_t()
+    _call(shape, "power", out.size, address(out), ctypes.byref(count))
     return out
 
 
-def from_power(coefficients: ArrayLike, domain: ArrayLike) -> Curve:
-    """The Bezier curve of powers of a local parameter: (degree + 1, 4) with w x, w y, w z, w."""
-    rows, ends, out = array("coefficients", coefficients, (None, 4)), vector("domain", domain, 2), ctypes.c_void_p()
+def from_power(coefficients: ArrayLike, domain: ArrayLike) -> Curve | Surface:
+    """The Bezier curve of powers of a local parameter, (degree + 1, 4) with w x, w y, w z, w; or the Bezier patch of (degree_u + 1,
+    degree_v + 1, 4) over u0, u1, v0, v1.
+    """
+    out = ctypes.c_void_p()
+    if np.ndim(coefficients) == 3:
+        net, ends = array("coefficients", coefficients, (None, None, 4)), vector("domain", domain, 4)
+        degrees = (max(count - 1, 0) for count in net.shape[:2])
+        lib.call("surface_from_power", *degrees, address(ends), address(net), ctypes.byref(out))
+        return _own(Surface, out)
+    rows, ends = array("coefficients", coefficients, (None, 4)), vector("domain", domain, 2)
     lib.call("curve_from_power", max(len(rows) - 1, 0), *ends.tolist(), address(rows), ctypes.byref(out))
     return _own(Curve, out)
 
@@ -297,6 +323,8 @@ def _along(shape: Any, direction: str | None) -> tuple[int, ...]:
         if direction is not None:
             raise ValueError("direction: a curve has none")
         return ()
+    if not isinstance(shape, Surface):
+        raise TypeError(f"shape: a Curve or a Surface is needed, not {type(shape).__name__}")
     names = {"u": 0, "v": 1, Direction.U: 0, Direction.V: 1}
     if direction not in names:
         raise ValueError(f'direction: "u" or "v" is needed for a surface, not {direction!r}')

@@ -28,7 +28,7 @@ from ._query import address, array, integer, real, vector
 from ._shapes import Curve, Surface
 
 __all__ = ["Change", "Coedge", "CoedgeFlag", "Edge", "ElementaryKind", "Finding", "FindingKind", "Loop", "PcurveKind", "Relation",
-           "Replacement", "Report", "Support", "Transform", "TrimmedSurface", "from_freecad", "picture"]
+           "Replacement", "Report", "Support", "Transform", "TrimmedSurface", "arc_by_angle", "from_freecad", "picture"]
 
 NO_EDGE = ctypes.c_size_t(-1).value
 
@@ -384,23 +384,26 @@ class Finding(NamedTuple):
 
 @dataclass(frozen=True)
 class Report:
-    """What was found; `proven`: coedges without a finding are proven to be disjoint. Lengths in the unit of the poles."""
+    """What was found; `proven`: coedges without a finding are proven to be disjoint. `largest_gap` between curves and edges is what was
+    found, `gap_bound` a proven bound of it, infinite where none can be had. Lengths in the unit of the poles."""
 
     tolerance: float
     largest_opening: float
     largest_gap: float
+    gap_bound: float
     segment_error: float
     proven: bool
     findings: list[Finding] = field(default_factory=list)
 
 
 class Change(NamedTuple):
-    """A changed face, the largest deviation of its curves in space, whether that is proven, and that of the surfaces."""
+    """A changed face, the largest deviation of its curves in space, whether that is proven, and the same of the surfaces."""
 
     face: "TrimmedSurface"
     deviation: float
     proven: bool
     surface_deviation: float
+    surface_proven: bool
 
 
 class TrimmedSurface(_Owner):
@@ -520,7 +523,8 @@ class TrimmedSurface(_Owner):
         options, summary, out = _options(tolerance, replacement), lib.ChangeSummary(), ctypes.c_void_p()
         self._call(name, *arguments, ctypes.byref(options), ctypes.byref(out), ctypes.byref(summary))
         assert out.value is not None
-        return Change(_owner(TrimmedSurface, out.value), summary.deviation, bool(summary.proven), summary.surface_deviation)
+        return Change(_owner(TrimmedSurface, out.value), summary.deviation, bool(summary.proven), summary.surface_deviation,
+                      bool(summary.surface_proven))
 
     def change(self, transform: Transform, support: Support, tolerance: float = 0.0, replacement: int = Replacement.POLYLINE) -> Change:
         """The face on another surface, which is its surface in the parameters of a transform.
@@ -566,7 +570,8 @@ class TrimmedSurface(_Owner):
                                      row.other_parameter, tuple(row.numbers)))
         finally:
             lib.functions["trim_report_free"](report)
-        return Report(summary.tolerance, summary.largest_opening, summary.largest_gap, summary.segment_error, bool(summary.proven), found)
+        return Report(summary.tolerance, summary.largest_opening, summary.largest_gap, summary.gap_bound, summary.segment_error,
+                      bool(summary.proven), found)
 
     def _repr_svg_(self) -> str:
         return picture([self])
@@ -604,9 +609,17 @@ def picture(faces: Sequence[TrimmedSurface], titles: Sequence[str] | None = None
     return _text(lambda *room: lib.call("trim_picture", handles, texts, len(faces), address(direction), *room))
 
 
+def arc_by_angle(center: Any, first: Any, second: Any, start: float, end: float) -> Curve:
+    """The arc center + cos t first + sin t second in space with its angle t as parameter: a polynomial spline, off by some roundings."""
+    middle, x, y = vector("center", center), vector("first", first), vector("second", second)
+    angles = np.array([real("start", start), real("end", end)])
+    return _curve(_made("curve_arc_by_angle", address(middle), address(x), address(y), address(angles)))
+
+
 def from_freecad(face: Any) -> TrimmedSurface:
-    """A face of FreeCAD in its own parameters: planes, cylinders, cones, spheres and tori by their geometric parameters, splines as
-    splines, other surfaces as functions. Its normal stays: a reversed face is flipped."""
+    """A face of FreeCAD in its own parameters: planes, cylinders, cones, spheres and tori by their geometric parameters, surfaces of
+    revolution and extrusion by their curve where it is a line, circle, ellipse or spline, splines as splines, other surfaces as
+    functions. Its normal stays: a reversed face is flipped."""
     flipped = face.Orientation == "Reversed"
     forward = face.copy()
     forward.Orientation = "Forward"
@@ -675,10 +688,29 @@ def _freecad_edge(edge: Any) -> tuple[Edge, bool]:
     if edge.Degenerated:
         return Edge(point=tuple(edge.Vertexes[0].Point)), True
     first, last = edge.ParameterRange
-    kind = type(edge.Curve).__name__
+    found = _freecad_curve(edge.Curve, first, last)
+    return (Edge(_freecad_spline(edge.Curve.toBSpline(first, last), False)), False) if found is None else (Edge(found), True)
+
+
+def _freecad_curve(curve: Any, first: float, last: float) -> Curve | None:
+    """The part of a curve in space with FreeCAD's parameters; None when it would need others."""
+    kind = type(curve).__name__
     if kind in ("Line", "LineSegment"):
-        return Edge(Curve(1, [first, first, last, last], [tuple(edge.Curve.value(t)) for t in (first, last)])), True
-    return Edge(_freecad_spline(edge.Curve.toBSpline(first, last), False)), kind in ("BSplineCurve", "BezierCurve")
+        return Curve(1, [first, first, last, last], [tuple(curve.value(t)) for t in (first, last)])
+    if kind in ("Circle", "ArcOfCircle", "Ellipse", "ArcOfEllipse") and last - first <= 2 * np.pi * (1 + 1e-12):
+        center = np.array(curve.Center)
+        return arc_by_angle(center, np.array(curve.value(0)) - center, np.array(curve.value(np.pi / 2)) - center, first, last)
+    if kind not in ("BSplineCurve", "BezierCurve") or first < curve.FirstParameter or last > curve.LastParameter:
+        return None
+    spline = curve.toBSpline(first, last)
+    if spline.isPeriodic():
+        spline.setNotPeriodic()
+    knots, poles = np.array(spline.KnotSequence), np.array([tuple(pole) for pole in spline.getPoles()])
+    # A part of a Bezier curve comes with the parameters 0 to 1.
+    start, end = spline.FirstParameter, spline.LastParameter
+    if (start, end) != (first, last):
+        knots = np.clip(first + (knots - start) * ((last - first) / (end - start)), first, last)
+    return Curve(spline.Degree, knots, poles, np.array(spline.getWeights()) if spline.isRational() else None)
 
 
 def _freecad_support(face: Any) -> Support:
@@ -712,7 +744,24 @@ def _freecad_support(face: Any) -> Support:
         from .convert import from_freecad as whole
 
         return Support(whole(surface))
-    return Support(Surface.from_function(lambda u, v, order: tuple(surface.value(u, v)), domain))
+    swept = _freecad_swept(surface, kind, domain)
+    return swept or Support(Surface.from_function(lambda u, v, order: tuple(surface.value(u, v)), domain))
+
+
+def _freecad_swept(surface: Any, kind: str, domain: np.ndarray) -> Support | None:
+    """A surface of revolution or extrusion by its curve; None when that needs other parameters."""
+    if kind == "SurfaceOfRevolution":
+        meridian = _freecad_curve(surface.BasisCurve, domain[2], domain[3])
+        if meridian is None:
+            return None
+        if domain[1] - domain[0] > 2 * np.pi - 1e-9:
+            domain[1] = domain[0] + 2 * np.pi
+        axis = np.array(surface.Direction)
+        return Support.elementary("revolution", domain, origin=np.array(surface.Location), z=axis / np.linalg.norm(axis), curve=meridian)
+    if kind == "SurfaceOfExtrusion":
+        base = _freecad_curve(surface.BasisCurve, domain[0], domain[1])
+        return None if base is None else Support.elementary("extrusion", domain, z=np.array(surface.Direction), curve=base)
+    return None
 
 
 def _freecad_elementary(kind: str, domain: np.ndarray, origin: np.ndarray, x: np.ndarray, y: np.ndarray, first: float = 0.0,

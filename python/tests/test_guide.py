@@ -20,4 +20,4 @@ def test_program(number, tmp_path):
 
 
 def test_there_are_programs():
-    assert len(PROGRAMS) == 6
+    assert len(PROGRAMS) == 8

@@ -64,7 +64,7 @@ def test_structs():
                                           (trims.ElementaryKind, "FPT_ELEMENTARY_"), (trims.PcurveKind, "FPT_PCURVE_"),
                                           (trims.CoedgeFlag, "FPT_COEDGE_"), (trims.Replacement, "FPT_REPLACEMENT_"),
                                           (trims.FindingKind, "FPT_FINDING_"), (pcurve.PcurveFlag, "FPT_DEVIATION_"),
-                                          (footpoint.Standing, "FPT_FACE_"), (footpoint.BranchEnd, "FPT_BRANCH_END_"),
+                                          (footpoint.Standing, "FPT_FACE_"), (footpoint.StandingFlag, "FPT_STANDING_"), (footpoint.BranchEnd, "FPT_BRANCH_END_"),
                                           (footpoint.ContactKind, "FPT_CONTACT_"), (fair.Method, "FPT_FAIR_"),
                                           (inspect.Quantity, "FPT_QUANTITY_"), (inspect.Pattern, "FPT_PATTERN_"),
                                           (inspect.Kind, "FPT_PLACE_"), (operate.Direction, "FPT_DIRECTION_"),
@@ -104,11 +104,12 @@ def reach_trims():
     whole = trims.TrimmedSurface.whole(sphere)
     face = trims.TrimmedSurface(sphere, [*whole.loops, hole], whole.edges)
     face.support, face.is_flipped, face.evaluate(0, 0, [0.5]), face.report(), trims.picture([face])
+    trims.arc_by_angle([0, 0, 0], [1, 0, 0], [0, 1, 0], 0, 1)
     nurbs = face.to_nurbs([0, 2], 1e-4, trims.Replacement.SPLINE).face
     nurbs.loops, face.to_nurbs([0, 2], 1e-3).face.loops, nurbs.to_elementary(sphere, [0, 2], 1e-3)
     face.change(exact, form, 1e-3), face.follow(form, 1e-2)
     nurbs.reparametrise(trims.Transform(trims.Relation.linear([0, 1], [1, 0]), trims.Relation.linear([0, 1], [0, 1])))
-    trims.TrimmedSurface.from_json(face.to_json())
+    trims.TrimmedSurface.from_json(face.to_json()), trims.arc_by_angle([0, 0, 0], [1, 0, 0], [0, 1, 0], 0, 1)
     open_loop = trims.TrimmedSurface(sphere, [trims.Loop([trims.Coedge.polyline([[0, 0], [1, 0], [1, 1]])])])
     assert open_loop.report().findings[0].kind == trims.FindingKind.OPEN
     parts = [trims.Support.elementary(3, [*ends, -1, 1], first=2.0) for ends in ([0, 2], [2, 5], [0, 5])]
@@ -132,6 +133,7 @@ def reach_operate(curve, surface):
         operate.make_compatible([shape, finer])
     operate.periodic(curve, 1e-9), operate.periodic(surface, 1e-9, "u"), operate.swap(surface), operate.isocurve(surface, 0.5, "v")
     operate.frame(curve, 0.5), operate.continuity(curve), operate.from_power(operate.power(curve)[0], [0, 1])
+    operate.continuity(surface, direction="u"), operate.from_power(operate.power(surface)[0, 0], [0, 1, 0, 1])
     length = operate.ArcLength(curve)
     length.total, length.at([0.5]), length.parameters([0.5])
 
@@ -197,6 +199,13 @@ def test_every_function_is_reached(monkeypatch):
     assert repr(footpoint.intersect_surfaces(ball, flat))
     with pytest.raises(Exception):
         met._contact(99)
+    whole = [trims.TrimmedSurface.whole(trims.Support(shape)) for shape in (ball, flat)]
+    cut = footpoint.intersect_trims(*whole)
+    assert len(cut.split(0, 1e-6)) >= 1 and len(cut.branches) == len(footpoint.intersect_surfaces(ball, flat).branches)
+    with pytest.raises(TypeError):
+        cut.curves(0, 1e-4)
+    with pytest.raises(TypeError):
+        met.split(0, 1e-6)
     assert len(footpoint.intersect_surfaces(surface, flat, budget=2).undecided)
     line, plane = footpoint.Curve.from_poles(1, [[-5, 0, 1], [5, 0, 1]]), intersect.Quadric.plane([0, 0, 1], [0, 0, 1])
     intersect.curves(curve, curve, budget=50), intersect.surface_curve(surface, line), intersect.curve_quadric(line, plane)

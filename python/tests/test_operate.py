@@ -60,3 +60,24 @@ def test_power_form_is_the_curve():
     h = sum(a * t**k for k, a in enumerate(coefficients))
     assert np.allclose(h[:3] / h[3], arch.evaluate(t), atol=1e-14)
     assert operate.difference(arch, operate.from_power(coefficients, [0, 1])).bound < 1e-13
+
+
+def test_a_patch_goes_through_the_power_form_and_knot_lines_are_told():
+    rng = np.random.default_rng(3)
+    sheet = footpoint.Surface.from_poles(2, 3, rng.normal(size=(5, 6, 3)))
+    powers = operate.power(sheet)
+    assert powers.shape == (3, 3, 3, 4, 4)
+    corners = [np.unique(knots) for knots in sheet.knots]
+    for i in range(3):
+        for j in range(3):
+            domain = [*corners[0][i:i + 2], *corners[1][j:j + 2]]
+            patch = operate.part(sheet, domain)
+            assert operate.difference(patch, operate.from_power(powers[i, j], domain)).bound < 1e-12
+    lines = operate.continuity(sheet, direction="u")
+    assert [line.value for line in lines] == list(corners[0][1:-1]) and all(line.order == 1 and line.multiplicity == 1 for line in lines)
+    broken = operate.refine(sheet, [corners[1][1]] * 2, "v")
+    assert operate.continuity(broken, direction="v")[0].multiplicity == 3 and operate.continuity(broken, direction="v")[0].order == 2
+    with pytest.raises(ValueError, match="direction"):
+        operate.continuity(sheet)
+    with pytest.raises(ValueError, match="degree_u"):
+        operate.from_power(np.zeros((1, 2, 4)), [0, 1, 0, 1])

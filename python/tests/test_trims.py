@@ -4,6 +4,7 @@ import ctypes
 import gc
 import math
 
+import footpoint
 import numpy as np
 import pytest
 from footpoint import Curve, Flag, trims
@@ -132,3 +133,35 @@ def test_pictures_are_text():
     svg = trims.picture([face, face], ["before", "after & <later>"], [0, 1, 0])
     assert svg.startswith("<svg") and "after &amp; &lt;later>" in svg and "NaN" not in svg
     assert face._repr_svg_().startswith("<svg") and ctypes.sizeof(ctypes.c_void_p) == 8
+
+
+def test_making_a_face_can_be_stopped_watched_and_limited():
+    """Also when what is called fails: its exception comes out."""
+    face, told = trims.TrimmedSurface.whole(sphere()), []
+    made = footpoint.Face.of_trim(face, progress=lambda done, total: told.append((done, total)))
+    assert told[0] == (0, 4) and told[-1] == (4, 4)
+    feet, places = made.closest([[0, 3, 0]])
+    assert abs(feet.uv[0, 0] - math.pi / 2) < 1e-12 and places["flags"][0] == 0
+    with pytest.raises(RuntimeError, match="cancelled by should_stop"):
+        footpoint.Face.of_trim(face, should_stop=lambda: True)
+    with pytest.raises(ZeroDivisionError):
+        footpoint.Face.of_trim(face, should_stop=lambda: 1 / 0)
+    with pytest.raises(NotImplementedError, match="budget: 1 spans"):
+        footpoint.Face.of_trim(face, budget=1)
+
+
+def test_a_face_on_a_function_says_that_distances_are_not_proven():
+    surface = footpoint.Surface.from_function(lambda u, v, order: [u, v, u * v], [0, 1, 0, 1])
+    face = footpoint.Face.of_trim(trims.TrimmedSurface.whole(trims.Support(surface)))
+    places = face.classify([[0.5, 0.5], [2, 0.5]])
+    assert list(places["standing"]) == [footpoint.Standing.INSIDE, footpoint.Standing.OUTSIDE]
+    assert places["flags"][0] in (0, footpoint.StandingFlag.NOT_PROVEN)
+    feet, places = face.closest([[0.5, 0.5, 1]])
+    assert not feet.proven[0] and places["flags"][0] == footpoint.StandingFlag.NOT_PROVEN
+
+
+def test_arcs_by_angle_and_bounds_of_gaps():
+    arc = trims.arc_by_angle([1, 2, 3], [2, 0, 0], [0, 0, 1], 0, 2 * math.pi)
+    assert np.allclose(arc.evaluate(1.3), [1 + 2 * math.cos(1.3), 2, 3 + math.sin(1.3)], atol=1e-14)
+    report = trims.TrimmedSurface.whole(sphere()).report()
+    assert report.findings == [] and report.largest_gap <= report.gap_bound < 1e-6

@@ -28,6 +28,8 @@ const LEAST_WIDTH: f64 = 1e-14;
 const LONG: u32 = 40;
 /// Halvings after which coefficients are rebuilt from the poles, to shed their rounding.
 const FRESH: u32 = 8;
+/// The same where the rounding is more than what is to be told from it.
+const BLURRED: u32 = 3;
 
 /// A segment in the search, with what the proof must know about it.
 pub struct Line<'a> {
@@ -208,7 +210,8 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
             return Verdict::GiveUp;
         }
         let close = least > self.proof.level_squared() && interval.age > 0;
-        if interval.age >= FRESH || close || self.proof.tying {
+        let blurred = interval.error > self.proof.level_squared() && interval.age >= BLURRED;
+        if interval.age >= FRESH || close || blurred || self.proof.tying {
             if self.load(interval, at) || self.is_beyond(interval, at) {
                 return Verdict::Closed;
             }

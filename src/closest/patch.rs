@@ -6,6 +6,7 @@
 
 mod sides;
 mod tips;
+mod valley;
 
 use super::certificate::{
     LEAST_C, foot_plane_separates, free_slope, least_height, nearness, plane_separates,
@@ -132,6 +133,7 @@ pub struct PatchMemory {
     h: Vec<f64>,
     edge: Vec<f64>,
     turning: Vec<f64>,
+    valley: Vec<f64>,
     weights: Vec<f64>,
     line: LineMemory,
 }
@@ -323,7 +325,10 @@ impl Walk<'_, '_, '_> {
                 return Verdict::Closed;
             }
         }
-        if self.turning(area, at, weight) || self.convex(area, at, place, weight, &slopes) {
+        if self.turning(area, at, weight)
+            || self.convex(area, at, place, weight, &slopes)
+            || self.valley(area, at, weight, &slopes)
+        {
             return Verdict::Closed;
         }
         if area.small {

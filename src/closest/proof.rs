@@ -72,6 +72,8 @@ pub struct Proof<'t> {
     pub spread: f64,
     /// Boxes looked at, of `budget`.
     pub spent: u64,
+    /// Valleys tried, and areas closed by them.
+    pub valleys: (u64, u64),
     /// Most boxes.
     pub budget: u64,
     /// Evaluations of the shape.
@@ -107,6 +109,7 @@ impl<'t> Proof<'t> {
             lower: f64::INFINITY,
             spread: 0.0,
             spent: 0,
+            valleys: (0, 0),
             budget,
             evaluations: 0,
             exhausted: false,

@@ -23,6 +23,9 @@ use crate::refine::{Method, Trace, foot_on_surface};
 /// hold the foot must not use up the budget. One query in a thousand gets here.
 const PATIENCE: u64 = 64;
 
+/// Most lines between patches that a descent crosses at a time: along an almost-continuum it could go on for long.
+const MOST_CROSSED: usize = 8;
+
 /// When the budget has run out: nearest patches sampled and samples in either direction of each (fewer for high
 /// degrees, whose evaluations cost more), and the samples that are iterated from.
 const RESCUE_SAMPLING: (usize, usize) = (200, 6);
@@ -379,14 +382,19 @@ impl SurfaceSearch<'_> {
         }
     }
 
-    /// Goes on where an iteration was cut off, and in the neighbours when the best foot lies on the line between two patches: the search leaves out what
-    /// is nearer by less than the accuracy, the foot should not.
+    /// Goes on where an iteration was cut off, and in the neighbours when the best foot lies on the line between two patches:
+    /// the search leaves out what is nearer by less than the accuracy, the foot should not.
     fn polish(&self, proof: &mut Proof) {
         if let (Some(site), true) = (proof.site, proof.is_cut_off)
             && let Some(range) = self.local_range(site.piece)
         {
             self.iterate_from(site.piece, site.at, range, Method::Auto, proof);
         }
+        self.cross(proof);
+    }
+
+    /// Goes on in the neighbours when the best foot lies on the line between two patches.
+    fn cross(&self, proof: &mut Proof) {
         let Some(site) = proof.site else { return };
         let (columns, rows) = (self.index.columns, self.index.patches.len() / self.index.columns);
         let place = [site.piece / columns, site.piece % columns];
@@ -412,6 +420,18 @@ impl SurfaceSearch<'_> {
                 self.options.method,
                 proof,
             );
+        }
+    }
+
+    /// Goes on from patch to patch as long as that leads nearer: what is far above the least distance closes nothing.
+    fn descend(&self, before: f64, proof: &mut Proof) {
+        let mut before = before;
+        for _ in 0..MOST_CROSSED {
+            if proof.best >= before - proof.window() || proof.tying {
+                return;
+            }
+            before = proof.best;
+            self.cross(proof);
         }
     }
 
@@ -448,7 +468,10 @@ impl SurfaceSearch<'_> {
             match next.piece() {
                 None => self.index.tree.open(next, self.query, limit, &mut workspace.queue),
                 Some(k) => {
-                    if self.search(k, PATIENCE, &mut workspace.patch, proof) {
+                    let before = proof.best;
+                    let closed = self.search(k, PATIENCE, &mut workspace.patch, proof);
+                    self.descend(before, proof);
+                    if closed {
                         note_loose(k, &mut workspace.loose, proof);
                     } else {
                         workspace.deferred.push((next.key, k));

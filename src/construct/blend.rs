@@ -316,6 +316,9 @@ pub fn gordon(
         if let Some(i) = curves[k].iter().position(Curve::is_rational) {
             return Err(Error::Unsupported(format!("curves_{name}: curve {i} is rational")));
         }
+    }
+    for k in 0..2 {
+        let name = ["u", "v"][k];
         let (start, end) = curves[k][0].domain();
         for pair in parameters[k].windows(2) {
             check_interval(&format!("parameters_{name}"), [pair[0], pair[1]])?;

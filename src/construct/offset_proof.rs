@@ -16,10 +16,9 @@
 //! is that of one point. A planar curve is the same with `a_v = w^2 V`. Pieces whose bound is above the goal are halved. Every
 //! polynomial is loosened by what rounding may do: units of the sizes of its factors, counted generously.
 
-use crate::bezier::{
-    Bidegree, MAX_TRIPLE, convolve, derivative, halve_s, halve_t, scale_down_2d, scale_up_2d,
-};
-use crate::bounds::{Vector, dot, extent, norm, scaled, sub};
+use super::poly::{Poly, Polys, homogeneous, product};
+use crate::bezier::{Bidegree, MAX_TRIPLE};
+use crate::bounds::{Vector, dot, norm, scaled, sub};
 use crate::curve::Curve;
 use crate::error::Error;
 use crate::operate::{compatible_curves, compatible_surfaces};
@@ -27,76 +26,6 @@ use crate::surface::Surface;
 
 /// Most halvings of one piece.
 const DEPTH: usize = 12;
-
-/// Units in the last place that one product, sum or change of knots may cost in all, relative to the sizes of the factors.
-const UNITS: f64 = 256.0;
-
-/// A polynomial in Bernstein form, and what its coefficients may be off.
-#[derive(Clone)]
-struct Poly {
-    degree: Bidegree,
-    c: Vec<f64>,
-    slack: f64,
-}
-
-impl Poly {
-    fn size(&self) -> f64 {
-        self.c.iter().fold(self.slack, |size, x| size.max(x.abs()))
-    }
-
-    fn times(&self, other: &Self) -> Self {
-        let degree = self.degree.times(other.degree);
-        let (mut f, mut g) = (self.c.clone(), other.c.clone());
-        scale_up_2d(&mut f, self.degree);
-        scale_up_2d(&mut g, other.degree);
-        let mut c = vec![0.0; degree.count()];
-        convolve(&f, self.degree, &g, other.degree, 1.0, &mut c);
-        scale_down_2d(&mut c, degree);
-        let (a, b) = (self.size(), other.size());
-        let slack = a * other.slack + b * self.slack + UNITS * f64::EPSILON * a * b;
-        Self { degree, c, slack }
-    }
-
-    /// `self + factor * other`, of one degree.
-    fn plus(mut self, factor: f64, other: &Self) -> Self {
-        debug_assert_eq!(self.degree, other.degree);
-        self.c.iter_mut().zip(&other.c).for_each(|(x, y)| *x += factor * y);
-        let size = self.size() + factor.abs() * other.size();
-        self.slack += factor.abs() * other.slack + 4.0 * f64::EPSILON * size;
-        self
-    }
-
-    fn derived(&self, direction: usize) -> Self {
-        let mut c = Vec::new();
-        derivative(&self.c, self.degree, direction, &mut c);
-        let order = [self.degree.s, self.degree.t][direction] as f64;
-        let slack = 2.0 * order * (self.slack + 4.0 * f64::EPSILON * self.size());
-        Self { degree: self.degree.lowered(direction), c, slack }
-    }
-
-    /// The same, written with a higher degree.
-    fn raised(&self, degree: Bidegree) -> Self {
-        let one = Bidegree { s: degree.s - self.degree.s, t: degree.t - self.degree.t };
-        self.times(&Self { degree: one, c: vec![1.0; one.count()], slack: 0.0 })
-    }
-
-    fn halved(&self, direction: usize) -> [Self; 2] {
-        let (mut low, mut high) = (self.c.clone(), self.c.clone());
-        if direction == 0 {
-            halve_s(&mut low, &mut high, self.degree);
-        } else {
-            halve_t(&mut low, &mut high, self.degree);
-        }
-        let slack = self.slack + 32.0 * f64::EPSILON * self.size();
-        [low, high].map(|c| Self { degree: self.degree, c, slack })
-    }
-}
-
-type Polys = [Poly; 3];
-
-fn product(a: &Polys, b: &Polys) -> Poly {
-    a[0].times(&b[0]).plus(1.0, &a[1].times(&b[1])).plus(1.0, &a[2].times(&b[2]))
-}
 
 /// The polynomials of the bound on one piece.
 struct Cell {
@@ -170,11 +99,7 @@ impl Cell {
 
     /// The bound on the piece, infinite when there is none.
     fn bound(&self, distance: f64) -> f64 {
-        let least = |poly: &Poly| extent(&poly.c).0 - poly.slack;
-        let most = |poly: &Poly| {
-            let (low, high) = extent(&poly.c);
-            low.abs().max(high.abs()) + poly.slack
-        };
+        let (least, most) = (Poly::least, Poly::most);
         let (w, h) = (least(&self.w), least(&self.h));
         if !(w > 0.0 && h > 0.0) {
             return f64::INFINITY;
@@ -217,33 +142,6 @@ impl Cell {
         }
         first.max(high.refined(distance, goal, depth - 1))
     }
-}
-
-/// Coordinates of poles relative to `center`, times weights; and the weights.
-fn homogeneous(
-    poles: &[Vector],
-    weights: Option<&[f64]>,
-    center: Vector,
-    degree: Bidegree,
-) -> (Polys, Poly) {
-    let weight = |k: usize| weights.map_or(1.0, |w| w[k]);
-    let far = poles.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
-    let greatest = (0..poles.len()).map(weight).fold(0.0, f64::max);
-    // Poles are stored to an ulp of their coordinates, and the change of knots costs some of the net's size.
-    let size = poles.iter().fold(0.0, |size: f64, p| size.max(norm(sub(*p, center))));
-    let slack = greatest * f64::EPSILON * (8.0 * far + UNITS * size);
-    let coordinate = |x: usize| Poly {
-        degree,
-        c: (0..poles.len()).map(|k| (poles[k][x] - center[x]) * weight(k)).collect(),
-        slack,
-    };
-    let w = match weights {
-        Some(weights) => {
-            Poly { degree, c: weights.to_vec(), slack: UNITS * f64::EPSILON * greatest }
-        }
-        None => Poly { degree: Bidegree { s: 0, t: 0 }, c: vec![1.0], slack: 0.0 },
-    };
-    ([coordinate(0), coordinate(1), coordinate(2)], w)
 }
 
 /// The proven error of `fit` as the offset of `surface`: infinite when nothing is proven.

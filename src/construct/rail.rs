@@ -6,17 +6,18 @@
 //!
 //! Frames go from node to node by double reflection, with an error of fourth order in the step; the steps are halved until the frames
 //! agree. The surface is linear in (T, M): both are fitted together as one curve in twelve dimensions, lengths of the profile as the
-//! weight of M, so that no point of the surface is off by more than the fit.
+//! weight of M, so that no point of the surface is off by more than the fit. The error is proven (`rail_proof`).
 //!
 //! Reference: Wang, Jüttler, Zheng, Liu, *Computation of rotation minimizing frames*, ACM Transactions on Graphics 27, 2008.
-//! Limit: the error is measured at the samples of the fit, densely, not proven between them. Spines with corners are refused.
+//! Limit: spines with corners are refused; rational ones of degrees above 13 have no proof.
 
+use super::rail_proof::motion_error;
 use super::{check_number, check_positive, gap, invalid};
 use crate::analytic::linear::any_frame;
 use crate::bounds::{Vector, add, cross, dot, norm, scaled, sub};
 use crate::curve::Curve;
 use crate::error::Error;
-use crate::fit::{Adaptive, of_function};
+use crate::fit::{Adaptive, Spline, of_function};
 use crate::knots::{MAX_DEGREE, Side};
 use crate::portable::SameDigits;
 use crate::surface::Surface;
@@ -47,8 +48,10 @@ impl Default for SweepOptions {
 pub struct Swept {
     /// u along the profile, v along the spine.
     pub surface: Surface,
-    /// The greatest distance from the exact surface at the samples of the fit.
+    /// No point is farther from the exact swept surface at its parameters: proven. Infinite where nothing is.
     pub error: f64,
+    /// The greatest distance from it at the samples of the fit.
+    pub measured: f64,
     /// The turn, in radians, between a rotation minimising frame carried once along and the frame at the start, about the tangent there:
     /// what `close` takes away. 0 for spines whose ends have different tangents.
     pub holonomy: f64,
@@ -61,7 +64,6 @@ struct Node {
     point: Vector,
     tangent: Vector,
     across: Vector,
-    length: f64,
 }
 
 struct Frames<'a> {
@@ -98,7 +100,7 @@ fn carried(from: &Node, spine: &Curve, v: f64) -> Result<Node, Error> {
     // Rounding must not grow along the way.
     let across = sub(across, scaled(tangent, dot(across, tangent)));
     let across = scaled(across, 1.0 / norm(across));
-    Ok(Node { at: v, point, tangent, across, length: from.length + norm(chord) })
+    Ok(Node { at: v, point, tangent, across })
 }
 
 impl<'a> Frames<'a> {
@@ -107,7 +109,7 @@ impl<'a> Frames<'a> {
         let (start, _) = spine.domain();
         let (point, tangent) = at(spine, start, Side::Above)?;
         let [across, ..] = any_frame(tangent);
-        let first = Node { at: start, point, tangent, across, length: 0.0 };
+        let first = Node { at: start, point, tangent, across };
         let mut before: Option<Vector> = None;
         let mut steps = 16;
         loop {
@@ -137,13 +139,11 @@ impl<'a> Frames<'a> {
         Ok(nodes)
     }
 
-    /// Frame at `v`: point, tangent, across, and the share of the length.
-    fn frame(&self, v: f64) -> Result<(Node, f64), Error> {
+    /// Frame at `v`: point, tangent, across.
+    fn frame(&self, v: f64) -> Result<Node, Error> {
         let behind = self.nodes.partition_point(|node| node.at <= v).max(1);
         let near = &self.nodes[behind - 1];
-        let node = if near.at == v { *near } else { carried(near, self.spine, v)? };
-        let all = self.nodes[self.nodes.len() - 1].length;
-        Ok((node, node.length / all))
+        if near.at == v { Ok(*near) } else { carried(near, self.spine, v) }
     }
 
     /// Angle from the first direction to the last, about the first tangent, when both tangents agree.
@@ -195,9 +195,13 @@ pub fn swept(profile: &Curve, spine: &Curve, options: &SweepOptions) -> Result<S
     let reach = profile.poles().iter().fold(0.0, |reach: f64, p| reach.max(gap(*p, first.point)));
     let scale = if reach > 0.0 { reach } else { 1.0 };
     let basis = [first.across, cross(first.tangent, first.across), first.tangent];
+    // Turns are spread over the length.
+    let length = if turn == 0.0 { None } else { Some(spine.arc_length(0.0)?) };
+    let rate = length.as_ref().map_or(0.0, |length| turn / length.total().value);
     let motion = |v: f64| -> Option<[f64; 12]> {
-        let (node, share) = frames.frame(v).ok()?;
-        let (sine, cosine) = (turn * share).sine_cosine();
+        let node = frames.frame(v).ok()?;
+        let so_far = length.as_ref().map_or(Some(0.0), |length| Some(length.at(v).ok()?.value))?;
+        let (sine, cosine) = (rate * so_far).sine_cosine();
         let side = cross(node.tangent, node.across);
         let turned = [
             add(scaled(node.across, cosine), scaled(side, sine)),
@@ -214,28 +218,24 @@ pub fn swept(profile: &Curve, spine: &Curve, options: &SweepOptions) -> Result<S
         }
         Some(out)
     };
-    // Breaks where the spine is less smooth than the fit.
-    let mut breaks: Vec<(f64, usize)> = Vec::new();
-    for &v in spine.knots().values().iter().filter(|v| start < **v && **v < end) {
-        match breaks.last_mut() {
-            Some(last) if last.0 == v => {}
-            _ => {
-                // The tangent is once less smooth than the spine.
-                let smooth = spine.degree() - spine.knots().multiplicity(v).min(spine.degree());
-                let times = options.degree.saturating_sub(smooth.saturating_sub(1)).max(1);
-                breaks.push((v, times.min(options.degree)));
-            }
-        }
-    }
-    // |dT + dM x| <= |dT| + |dM| |x| <= sqrt(2) times the distance in twelve dimensions.
+    let breaks = breaks(spine, options.degree);
+    // |dT + dM x| <= |dT| + |dM| |x| <= sqrt(2) times the distance in twelve dimensions. A quarter is for what lies between the samples
+    // and for what the proof loses.
     let wanted = Adaptive {
         degree: options.degree,
-        tolerance: options.tolerance / std::f64::consts::SQRT_2,
+        tolerance: 0.75 * options.tolerance / std::f64::consts::SQRT_2,
         max_poles: options.max_poles,
         breaks: &breaks,
         ..Adaptive::default()
     };
     let fit = of_function(motion, [start, end], &wanted)?;
+    let turns = |v: f64| motion(v).map(|m| std::array::from_fn(|k| if k < 3 { 0.0 } else { m[k] }));
+    let error = proven_error(spine, &fit.spline, turns, (scale, rate), options.tolerance)?;
+    // The length is known to its own error, and the rate to its rounding.
+    let slack = length.map_or(0.0, |length| {
+        let total = length.total();
+        2.0 * scale * turn.abs() * (total.error / total.value + 4.0 * f64::EPSILON)
+    });
     let poles_v = fit.spline.poles();
     let mut poles = Vec::with_capacity(profile.poles().len() * poles_v.len());
     let mut weights = Vec::with_capacity(poles.capacity());
@@ -257,5 +257,64 @@ pub fn swept(profile: &Curve, spine: &Curve, options: &SweepOptions) -> Result<S
         poles_v.len(),
         profile.is_rational().then_some(&weights[..]),
     )?;
-    Ok(Swept { surface, error: fit.worst * std::f64::consts::SQRT_2, holonomy })
+    let far = poles.iter().flatten().fold(scale, |far: f64, x| far.max(x.abs()));
+    let error = error + slack + 16.0 * f64::EPSILON * far;
+    Ok(Swept { surface, error, measured: fit.worst * std::f64::consts::SQRT_2, holonomy })
+}
+
+/// Breaks where the spine is less smooth than a fit of a degree.
+fn breaks(spine: &Curve, degree: usize) -> Vec<(f64, usize)> {
+    let (start, end) = spine.domain();
+    let mut breaks: Vec<(f64, usize)> = Vec::new();
+    for &v in spine.knots().values().iter().filter(|v| start < **v && **v < end) {
+        if breaks.last().is_none_or(|last| last.0 != v) {
+            // The tangent is once less smooth than the spine.
+            let smooth = spine.degree() - spine.knots().multiplicity(v).min(spine.degree());
+            let times = degree.saturating_sub(smooth.saturating_sub(1)).max(1);
+            breaks.push((v, times.min(degree)));
+        }
+    }
+    breaks
+}
+
+/// Degree of the reference of a proof, and its tolerance as a share of that of the fit.
+const REFERENCE_DEGREE: usize = 7;
+const REFERENCE_SHARE: f64 = 1e-4;
+
+/// The proven error of a fit to the motion: its path against the spine, its turns against a reference, and the reference against the exact
+/// turns.
+fn proven_error(
+    spine: &Curve,
+    fit: &Spline<12>,
+    turns: impl Fn(f64) -> Option<[f64; 12]>,
+    (scale, rate): (f64, f64),
+    tolerance: f64,
+) -> Result<f64, Error> {
+    let (start, end) = spine.domain();
+    let breaks = breaks(spine, REFERENCE_DEGREE);
+    let wanted = Adaptive {
+        degree: REFERENCE_DEGREE,
+        // Closer than doubles are is not reached, only paid for.
+        tolerance: (REFERENCE_SHARE * tolerance).max(1e-14 * scale),
+        breaks: &breaks,
+        ..Adaptive::default()
+    };
+    let reference = of_function(turns, [start, end], &wanted)?.spline;
+    let path = coordinates(fit, [0, 1, 2])?.difference(spine)?.bound;
+    let (mut columns, mut square) = (Vec::with_capacity(3), 0.0);
+    for k in 0..3 {
+        let rows = [3 + k, 6 + k, 9 + k];
+        let column = coordinates(&reference, rows)?;
+        let bound = coordinates(fit, rows)?.difference(&column)?.bound;
+        square += bound * bound;
+        columns.push(column);
+    }
+    let motion = motion_error(spine, &columns, scale, rate)?;
+    Ok((path + f64::sqrt(square)) * (1.0 + 8.0 * f64::EPSILON) + motion)
+}
+
+/// Three of the coordinates as a curve.
+fn coordinates(spline: &Spline<12>, rows: [usize; 3]) -> Result<Curve, Error> {
+    let poles: Vec<Vector> = spline.poles().iter().map(|pole| rows.map(|row| pole[row])).collect();
+    Curve::new(spline.knots().values(), spline.knots().degree(), &poles, None)
 }

@@ -3,7 +3,11 @@
 //! Where v is no angle its parameter stays what it is; angles become the parameter 0 to 1 of a [`CircleForm`]. A surface of
 //! revolution is the product of its circle and its profile: `(c, s; w) x (a, b; x)` gives the pole `O + a (c X + s Y) + b Z` of
 //! weight `w x`.
+//!
+//! [`ElementarySurface::chart`] is the same with cosine and sine as polynomials of the angle: parameters stay what they are, points
+//! are those of the surface to a few roundings.
 
+use super::angle;
 use super::circle::{CircleForm, Net};
 use super::{Elementary, ElementarySurface, split_about};
 use crate::bounds::{Vector, add, scaled, sub};
@@ -23,6 +27,13 @@ impl Row<[f64; 2]> {
     fn arc(net: Net) -> Self {
         let poles = net.poles.iter().map(|&[c, s, w]| ([c, s], w)).collect();
         Self { poles, knots: net.knots, degree: 2 }
+    }
+
+    /// The arc with the angle as parameter.
+    fn angle(range: [f64; 2]) -> Self {
+        let (places, knots) = angle::spline(range);
+        let poles = places.into_iter().map(|place| (place, 1.0)).collect();
+        Self { poles, knots, degree: angle::DEGREE }
     }
 
     /// A line between two places.
@@ -92,11 +103,34 @@ impl ElementarySurface {
     /// # Errors
     /// A form that cannot make the sweep; memory that could not be had.
     pub fn nurbs(&self, forms: [CircleForm; 2]) -> Result<Surface, Error> {
-        let [u0, u1, v0, v1] = self.domain;
         let circle = |k: usize| {
             let [a, b] = [self.domain[2 * k], self.domain[2 * k + 1]];
             forms[k].net(a, b).map(Row::arc)
         };
+        self.assembled(&circle)
+    }
+
+    /// A spline surface in the parameters of this one, and how far it may be from it at equal parameters: some roundings of its largest
+    /// coordinate.
+    ///
+    /// # Errors
+    /// Memory that could not be had.
+    pub fn chart(&self) -> Result<(Surface, f64), Error> {
+        let range = |k: usize| [self.domain[2 * k], self.domain[2 * k + 1]];
+        let made = self.assembled(&|k| Ok(Row::angle(range(k))))?;
+        let (low, high) = made.bounding_box();
+        let largest = low.iter().chain(&high).fold(0.0, |most: f64, x| most.max(x.abs()));
+        let share = [0, 1].map(|k| if self.angular()[k] { angle::error(range(k)) } else { 0.0 });
+        // The points of both are rounded as well.
+        Ok((made, (2.0 * (share[0] + share[1]) + 32.0 * f64::EPSILON) * largest))
+    }
+
+    /// The product of the arcs `arc(0)` along u and `arc(1)` along v where they are angles, of lines and curves where they are not.
+    fn assembled(
+        &self,
+        arc: &dyn Fn(usize) -> Result<Row<[f64; 2]>, Error>,
+    ) -> Result<Surface, Error> {
+        let [u0, u1, v0, v1] = self.domain;
         match &self.kind {
             Elementary::Plane { axes } => {
                 let side = |a: f64, b: f64| Row::line([[a, 0.0], [b, 0.0]], [a, b]);
@@ -104,7 +138,7 @@ impl ElementarySurface {
             }
             Elementary::Revolution { origin, axis, meridian } => {
                 let profile = Row::curve(meridian, [v0, v1])?;
-                product(&circle(0)?, &profile, |[c, s], pole| {
+                product(&arc(0)?, &profile, |[c, s], pole| {
                     let [along, flat, aside] = split_about(*axis, sub(pole, *origin));
                     add(*origin, add(along, add(scaled(flat, c), scaled(aside, s))))
                 })
@@ -118,8 +152,8 @@ impl ElementarySurface {
             | Elementary::Cone { axes, .. }
             | Elementary::Sphere { axes, .. }
             | Elementary::Torus { axes, .. } => {
-                let profile = self.profile_row(forms[1])?;
-                product(&circle(0)?, &profile, |[c, s], [radius, height]| {
+                let profile = self.profile_row(arc)?;
+                product(&arc(0)?, &profile, |[c, s], [radius, height]| {
                     axes.point([radius * c, radius * s, height])
                 })
             }
@@ -127,7 +161,10 @@ impl ElementarySurface {
     }
 
     /// Radius and height along v.
-    fn profile_row(&self, form: CircleForm) -> Result<Row<[f64; 2]>, Error> {
+    fn profile_row(
+        &self,
+        arc: &dyn Fn(usize) -> Result<Row<[f64; 2]>, Error>,
+    ) -> Result<Row<[f64; 2]>, Error> {
         let [_, _, v0, v1] = self.domain;
         let (out, radius) = match self.kind {
             Elementary::Sphere { radius, .. } => (0.0, radius),
@@ -136,7 +173,7 @@ impl ElementarySurface {
                 return Ok(Row::line([self.profile(v0, 0), self.profile(v1, 0)], [v0, v1]));
             }
         };
-        let mut row = Row::arc(form.net(v0, v1)?);
+        let mut row = arc(1)?;
         for (place, _) in &mut row.poles {
             *place = [out + radius * place[0], radius * place[1]];
         }

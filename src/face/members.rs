@@ -30,7 +30,7 @@ impl Face {
         poll: Poll,
     ) -> Result<FootSet, Error> {
         let whole = QueryOptions { domain: None, ..*options };
-        let set = self.shape.preimage(query, tolerance, &whole, poll)?;
+        let set = self.ground.preimage(query, tolerance, &whole, poll)?;
         let mut workspace = FaceWorkspace::default();
         let mut kept = FootSet::default();
         for member in set.members {
@@ -84,7 +84,7 @@ impl Face {
     }
 
     fn member_at(&self, query: Vector, member: Member, at: [f64; 2]) -> Member {
-        let point = self.shape.surface().evaluate(at[0], at[1]);
+        let point = self.support.evaluate(at);
         let distance = self.distance(query, at);
         let lower_bound = member.foot.lower_bound.min(distance);
         let foot = crate::closest::FootPoint {

@@ -1,7 +1,7 @@
 //! The nearest point of a face.
 
 use super::border::{Nearest, box_distance};
-use super::{Face, FaceWorkspace, Place, Standing};
+use super::{Face, FaceWorkspace, NOT_PROVEN, Place, Standing};
 use crate::bounds::{Vector, norm, sub};
 use crate::closest::{FootPoint, QueryOptions, Scope, flag, is_bad};
 use crate::extrema::ExtremaOptions;
@@ -40,12 +40,29 @@ impl Face {
             return (FootPoint::bad_query(), nowhere);
         }
         let asked = QueryOptions { domain: None, scope: Scope::Global, ..*options };
-        let whole = self.shape.closest(query, hint, &asked, &mut workspace.shape, None);
+        let whole = self.ground.closest(query, hint, &asked, &mut workspace.shape);
         if whole.distance.is_nan() {
             return (whole, nowhere);
         }
-        if let Some(at) = self.held(&whole, workspace) {
-            let foot = self.moved(query, &whole, at);
+        let (mut foot, mut place) = self.nearest(query, &whole, options, workspace);
+        if !self.ground.is_proven() {
+            // Estimates are no bounds.
+            (foot.lower_bound, foot.flags) = (0.0, foot.flags | flag::NOT_PROVEN);
+            place.flags = NOT_PROVEN;
+        }
+        (foot, place)
+    }
+
+    /// The answer when the foot on the whole surface is known.
+    fn nearest(
+        &self,
+        query: Vector,
+        whole: &FootPoint,
+        options: &QueryOptions,
+        workspace: &mut FaceWorkspace,
+    ) -> (FootPoint, Place) {
+        if let Some(at) = self.held(whole, workspace) {
+            let foot = self.moved(query, whole, at);
             let place = self.classify(at, options, workspace);
             let place = if place.standing == Standing::Outside {
                 // The other end of a closed direction holds it, this one only by rounding.
@@ -56,9 +73,9 @@ impl Face {
             return (foot, place);
         }
         let Some(best) = self.on_borders(query, options, workspace) else {
-            return (FootPoint::unreached(), nowhere);
+            return (FootPoint::unreached(), Place::off(Standing::Unknown));
         };
-        self.settled(query, &whole, &best, options, workspace)
+        self.settled(query, whole, &best, options, workspace)
     }
 
     /// A foot at other parameters of the same point.
@@ -66,7 +83,7 @@ impl Face {
         if at == [foot.u, foot.v] {
             return *foot;
         }
-        let point = self.shape.surface().evaluate(at[0], at[1]);
+        let point = self.support.evaluate(at);
         let distance = norm(sub(query, point));
         let lower_bound = foot.lower_bound.min(distance);
         FootPoint { u: at[0], v: at[1], point, distance, lower_bound, ..*foot }
@@ -125,11 +142,8 @@ impl Face {
         found: &Nearest,
         accuracy: f64,
     ) -> bool {
-        let domain = self.shape.surface().domain();
-        let point = |k: usize, t: f64| {
-            let [u, v] = self.borders[k].at(t, domain);
-            self.shape.surface().evaluate(u, v)
-        };
+        let domain = self.support.domain();
+        let point = |k: usize, t: f64| self.support.evaluate(self.borders[k].at(t, domain));
         let (a, b) = (point(best.border, best.found.t), point(border, found.t));
         let distance = norm(sub(query, a));
         norm(sub(a, b)) > SAME * (distance * accuracy).sqrt().max(accuracy)
@@ -144,7 +158,7 @@ impl Face {
         options: &QueryOptions,
         workspace: &mut FaceWorkspace,
     ) -> (FootPoint, Place) {
-        let domain = self.shape.surface().domain();
+        let domain = self.support.domain();
         let border = &self.borders[best.border];
         let mut foot = self.record(query, border.at(best.found.t, domain), domain);
         foot.flags |= best.flags | whole.flags & flag::HINT_USED;
@@ -155,6 +169,9 @@ impl Face {
         if whole.lower_bound < foot.distance - allowed {
             let inside = self.stationary(query, foot.distance, options, workspace);
             lower_bound = lower_bound.min(inside.lower_bound);
+            if !self.ground.has_all_extrema() {
+                lower_bound = 0.0;
+            }
             if let Some(nearer) = inside.foot.filter(|inside| inside.distance < foot.distance) {
                 let (flags, iterations) = (foot.flags & flag::HINT_USED, foot.iterations);
                 foot = self.record(query, [nearer.u, nearer.v], domain);
@@ -179,21 +196,19 @@ impl Face {
 
     /// The record of a place, without its certificate.
     fn record(&self, query: Vector, [u, v]: [f64; 2], domain: [f64; 4]) -> FootPoint {
-        let point = self.shape.surface().evaluate(u, v);
+        let point = self.support.evaluate([u, v]);
         let on = [u == domain[0], u == domain[1], v == domain[2], v == domain[3]];
         let mut flags = 0;
-        if let Ok(index) = self.shape.index(&mut || false) {
-            let seam = index.closed[0] && (on[0] || on[1]) || index.closed[1] && (on[2] || on[3]);
-            let collapsed = (0..4).any(|k| on[k] && index.collapsed[k]);
-            let corner = (on[0] || on[1]) && (on[2] || on[3]);
-            for (is, bit) in [
-                (on.contains(&true), flag::EDGE),
-                (corner, flag::CORNER),
-                (seam, flag::SEAM),
-                (collapsed, flag::COLLAPSED),
-            ] {
-                flags |= if is { bit } else { 0 };
-            }
+        let seam = self.closed[0] && (on[0] || on[1]) || self.closed[1] && (on[2] || on[3]);
+        let collapsed = (0..4).any(|k| on[k] && self.collapsed[k]);
+        let corner = (on[0] || on[1]) && (on[2] || on[3]);
+        for (is, bit) in [
+            (on.contains(&true), flag::EDGE),
+            (corner, flag::CORNER),
+            (seam, flag::SEAM),
+            (collapsed, flag::COLLAPSED),
+        ] {
+            flags |= if is { bit } else { 0 };
         }
         debug_assert_eq!(flags & !PLACE, 0);
         let distance = norm(sub(query, point));
@@ -218,7 +233,7 @@ impl Face {
             ..ExtremaOptions::default()
         };
         let mut found = Stationary { foot: None, lower_bound: f64::INFINITY, exhausted: false };
-        let Ok(set) = self.shape.extrema(query, &asked, &mut || false) else {
+        let Ok(set) = self.ground.extrema(query, &asked, &mut || false) else {
             return Stationary { lower_bound: 0.0, ..found };
         };
         for member in &set.members {
@@ -235,11 +250,11 @@ impl Face {
             }
             found.exhausted = true;
             let restricted = QueryOptions { domain: Some(*area), ..*options };
-            if self.shape.check_domain(*area).is_err() {
+            if self.ground.check_domain(*area).is_err() {
                 found.lower_bound = 0.0;
                 continue;
             }
-            let foot = self.shape.closest(query, None, &restricted, &mut workspace.shape, None);
+            let foot = self.ground.closest(query, None, &restricted, &mut workspace.shape);
             found.lower_bound = found.lower_bound.min(foot.lower_bound);
             if let Some(at) = self.held(&foot, workspace) {
                 let foot = self.moved(query, &foot, at);
@@ -251,9 +266,9 @@ impl Face {
 
     /// The part of the domain around the region, when it is not all of it.
     pub(super) fn range(&self) -> Option<[f64; 4]> {
-        let (d, r) = (self.shape.surface().domain(), self.region.bounds());
+        let (d, r) = (self.support.domain(), self.region.bounds());
         let cut = [r[0].max(d[0]), r[1].min(d[1]), r[2].max(d[2]), r[3].min(d[3])];
-        (cut != d && self.shape.check_domain(cut).is_ok()).then_some(cut)
+        (cut != d && self.ground.check_domain(cut).is_ok()).then_some(cut)
     }
 }
 

@@ -262,6 +262,10 @@ pub fn fair_curve(
         .map(|k| vec![k])
         .collect();
     let mut state = State::new(curve.poles(), energy.value(curve.poles()));
+    if !state.last().is_finite() {
+        let text = "strain: its energy, that of jerk or of the shape is too large for a number";
+        return Err(Error::InvalidArgument(text.into()));
+    }
     let radius = fairing.deviation * (1.0 - 1e-9) - size_rounding(curve);
     if radius <= 0.0 {
         let text = "deviation: is below the rounding of the poles".to_string();

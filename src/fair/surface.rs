@@ -228,6 +228,10 @@ pub fn fair_surface(
         return Err(Error::InvalidArgument(text));
     }
     let mut state = State::new(old, energy.value(old));
+    if !state.last().is_finite() {
+        let text = "plate: its energy, that of jerk or of the shape is too large for a number";
+        return Err(Error::InvalidArgument(text.into()));
+    }
     let allowed = |_: &[Vector]| true;
     let kept = Vec::new();
     let mut problem =

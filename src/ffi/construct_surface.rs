@@ -508,7 +508,8 @@ pub unsafe extern "C" fn fpt_surface_skinned(
 ///
 /// @param options   must not be NULL: tolerance
 /// @param out       the handle; release it with fpt_surface_free
-/// @param error     greatest distance from the exact swept surface at dense samples; above the tolerance with max_poles. NULL: not wanted
+/// @param error     no point is farther from the exact swept surface at its parameters, proven; above the tolerance where max_poles or rounding
+///                  do not allow it, infinite where nothing is proven (rational spines of degrees above 13). NULL: not wanted
 /// @param holonomy  radians by which the frame has turned about the tangent after one way round a closed spine; 0 for open ones. NULL: not
 ///                  wanted
 /// @return FPT_UNSUPPORTED for spines with a corner or that stand still, with the parameter

@@ -2,6 +2,7 @@
 
 use super::curve::fpt_curve;
 use super::form::SurfaceForm;
+use super::inspect_records::{initialise, sized_or_default};
 use super::memory::{Strided, array, check_extent, optional_output, output, place, shared};
 use super::options::{SelfSized, check_length, fpt_query_options, sized};
 use super::pcurve::pcurve;
@@ -14,8 +15,9 @@ use super::{Failure, fpt_status, guard};
 use crate::batch;
 use crate::closest::{FootPoint, QueryOptions, Scope};
 use crate::error::Error;
-use crate::face::{Face, FaceWorkspace, Place, Standing};
+use crate::face::{Face, FaceWorkspace, NOT_PROVEN, Place, Standing};
 use crate::trim::{Coedge, Loop, Support, TrimmedSurface};
+use std::ffi::{c_int, c_void};
 use std::mem::{align_of, offset_of, size_of};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -43,10 +45,19 @@ pub struct fpt_face_place {
     pub loop_index: u32,
     /// On an edge: the number of the pcurve in its loop; else UINT32_MAX.
     pub coedge_index: u32,
-    /// 0.
-    pub reserved: u32,
+    /// 0 or FPT_STANDING_NOT_PROVEN.
+    pub flags: u32,
     /// On an edge: the parameter of the pcurve; else NaN.
     pub parameter: f64,
+}
+
+/// Bits of fpt_face_place.flags.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub enum fpt_standing_flag {
+    /// Whether an edge is within the tolerance is not proven: the surface is a function without a bound of its speed. Sides in the domain
+    /// are exact all the same.
+    FPT_STANDING_NOT_PROVEN = 1,
 }
 
 // Places are copied out as they are: the layouts must agree.
@@ -56,7 +67,9 @@ const _: () = {
     assert!(offset_of!(fpt_face_place, standing) == offset_of!(Place, standing));
     assert!(offset_of!(fpt_face_place, loop_index) == offset_of!(Place, loop_index));
     assert!(offset_of!(fpt_face_place, coedge_index) == offset_of!(Place, coedge_index));
+    assert!(offset_of!(fpt_face_place, flags) == offset_of!(Place, flags));
     assert!(offset_of!(fpt_face_place, parameter) == offset_of!(Place, parameter));
+    assert!(fpt_standing_flag::FPT_STANDING_NOT_PROVEN as u32 == NOT_PROVEN);
     assert!(fpt_face_standing::FPT_FACE_INSIDE as u32 == Standing::Inside as u32);
     assert!(fpt_face_standing::FPT_FACE_OUTSIDE as u32 == Standing::Outside as u32);
     assert!(fpt_face_standing::FPT_FACE_ON_EDGE as u32 == Standing::OnEdge as u32);
@@ -69,7 +82,7 @@ const _: () = {
 pub struct fpt_face_data {
     /// sizeof(fpt_face_data).
     pub struct_size: usize,
-    /// A spline surface.
+    /// A surface of any kind.
     pub surface: *const fpt_surface,
     /// At least 1.
     pub loop_count: usize,
@@ -95,6 +108,77 @@ unsafe impl SelfSized for fpt_face_data {
     }
 }
 
+/// How a face is prepared. Fill it with fpt_face_options_init. All zero after struct_size is the default of everything. Grows at the end
+/// only.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct fpt_face_options {
+    /// sizeof(fpt_face_options), set by fpt_face_options_init.
+    pub struct_size: usize,
+    /// Most spans of the images of all pcurves, which bounds time and memory; 0: 10,000,000. What would take more is FPT_UNSUPPORTED.
+    pub budget: u64,
+    /// Asked on the calling thread between pcurves, and every 64 spans of long ones; non-zero ends the call with FPT_CANCELLED. NULL: never.
+    pub should_stop: Option<unsafe extern "C" fn(user: *mut c_void) -> c_int>,
+    /// Told on the calling thread how many pcurves are done, of how many. NULL: not wanted.
+    pub progress: Option<unsafe extern "C" fn(user: *mut c_void, done: usize, total: usize)>,
+    /// Handed to both as it is.
+    pub user: *mut c_void,
+}
+
+impl Default for fpt_face_options {
+    fn default() -> Self {
+        Self {
+            struct_size: size_of::<Self>(),
+            budget: 0,
+            should_stop: None,
+            progress: None,
+            user: std::ptr::null_mut(),
+        }
+    }
+}
+
+// SAFETY: repr(C), begins with struct_size; numbers, a raw pointer and nullable function pointers.
+unsafe impl SelfSized for fpt_face_options {
+    const SHORTER: &'static [usize] = &[
+        offset_of!(Self, budget),
+        offset_of!(Self, should_stop),
+        offset_of!(Self, progress),
+        offset_of!(Self, user),
+    ];
+
+    fn defaults() -> Self {
+        Self::default()
+    }
+}
+
+/// Sets all options to their defaults.
+///
+/// @param options      room for struct_size bytes
+/// @param struct_size  sizeof(fpt_face_options)
+/// @since 0.1
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_face_options_init(options: *mut fpt_face_options, struct_size: usize) {
+    // SAFETY: the header asks for room for `struct_size` bytes.
+    unsafe { initialise(options, struct_size) }
+}
+
+/// Prepares a face as the options say.
+///
+/// # Safety
+/// NULL or a struct of the size that it says.
+unsafe fn prepared(
+    trim: &TrimmedSurface,
+    options: *const fpt_face_options,
+) -> Result<*mut fpt_face, Failure> {
+    // SAFETY: the caller vouches for it.
+    let given = unsafe { sized_or_default("options", options) }?;
+    let callbacks = Callbacks::telling(given.should_stop, given.progress, given.user);
+    let total = trim.coedges().count();
+    let face = Face::new(trim, given.budget, &mut |done| callbacks.poll(done, total))?;
+    callbacks.report(total, total);
+    Ok(Box::into_raw(Box::new(fpt_face { face })))
+}
+
 /// A face prepared for queries: a surface and loops of pcurves. Immutable: any number of threads may use one at a time. Owned by the
 /// caller, released by fpt_face_free; the handles that it was made from may be freed before or after it.
 pub struct fpt_face {
@@ -118,9 +202,9 @@ unsafe fn read(data: *const fpt_face_data) -> Result<TrimmedSurface, Failure> {
     // SAFETY: the caller vouches for the struct and its arrays.
     unsafe {
         let data = sized("data", data)?;
-        let SurfaceForm::Spline(surface) = surface::form(data.surface)? else {
-            let text = "surface: is given by a function; a face needs knots and poles";
-            return Err(Error::Unsupported(text.into()).into());
+        let support = match surface::form(data.surface)? {
+            SurfaceForm::Spline(surface) => Support::Spline(surface.clone()),
+            SurfaceForm::Function(surface) => Support::Callback(surface.clone()),
         };
         let counts = array("coedge_counts", data.coedge_counts, data.loop_count)?;
         let mut total = 0usize;
@@ -140,7 +224,7 @@ unsafe fn read(data: *const fpt_face_data) -> Result<TrimmedSurface, Failure> {
             }
             loops.push(if k == 0 { Loop::outer(coedges) } else { Loop::inner(coedges) });
         }
-        Ok(TrimmedSurface::new(Support::Spline(surface.clone()), Vec::new(), loops, false)?)
+        Ok(TrimmedSurface::new(support, Vec::new(), loops, false)?)
     }
 }
 
@@ -160,21 +244,26 @@ fn at(failure: Failure, coedge: usize, chain: usize) -> Failure {
 /// does not count, holes are what is inside of two. Cost: that of the surface's index, some microseconds a pcurve, some
 /// milliseconds for one whose image must be fitted.
 ///
-/// @param data  the inputs, copied
-/// @param out   the handle; release it with fpt_face_free
-/// @return FPT_INVALID_ARGUMENT names loop and pcurve, also for one that leaves the domain
+/// On a surface given by a function what is proven depends on the bounds that it was made with: none of its speed, and no distance
+/// is (FPT_FOOT_NOT_PROVEN, FPT_STANDING_NOT_PROVEN); none of its second derivatives, and not where the nearest point is neither the surface's
+/// nor that of the edges.
+///
+/// @param data     the inputs, copied
+/// @param options  NULL: the defaults
+/// @param out      the handle; release it with fpt_face_free
+/// @return FPT_INVALID_ARGUMENT names loop and pcurve, also for one that leaves the domain by more than 1e-6 of it
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fpt_face_new(
     data: *const fpt_face_data,
+    options: *const fpt_face_options,
     out: *mut *mut fpt_face,
 ) -> fpt_status {
-    // SAFETY: the header asks for a data struct and room for a handle.
+    // SAFETY: the header asks for a data struct, options and room for a handle.
     guard(|| unsafe {
         let out = place("out", out)?;
-        let face = Face::new(&read(data)?, &mut || false)?;
-        *out = Box::into_raw(Box::new(fpt_face { face }));
+        *out = prepared(&read(data)?, options)?;
         Ok(())
     })
 }
@@ -182,23 +271,23 @@ pub unsafe extern "C" fn fpt_face_new(
 /// Prepares a trimmed surface for queries: as fpt_face_new, with the surface and the loops of `trim`; its edges in space play no part, the
 /// border of a face is the image of its pcurves.
 ///
-/// @param trim  a trimmed surface over a spline surface; one over an elementary surface or a function is FPT_UNSUPPORTED, see
-///              fpt_trim_to_nurbs
-/// @param out   the handle; release it with fpt_face_free. Parameters of answers are those of the surface, those of places the
-///              parameters of the coedges' pcurves; an arc's are those of its NURBS form, the angle at the ends of quarter turns only
+/// @param trim     a trimmed surface over any support
+/// @param options  NULL: the defaults
+/// @param out      the handle; release it with fpt_face_free. Parameters of answers are those of the support (angles of an elementary
+///                 surface are angles), those of places the parameters of the coedges' pcurves
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fpt_face_of_trim(
     trim: *const fpt_trim,
+    options: *const fpt_face_options,
     out: *mut *mut fpt_face,
 ) -> fpt_status {
-    // SAFETY: the header asks for a live handle and room for a handle.
+    // SAFETY: the header asks for a live handle, options and room for a handle.
     guard(|| unsafe {
         let trim = trim::face("trim", trim)?;
         let out = place("out", out)?;
-        let face = Face::new(trim, &mut || false)?;
-        *out = Box::into_raw(Box::new(fpt_face { face }));
+        *out = prepared(trim, options)?;
         Ok(())
     })
 }
@@ -267,7 +356,7 @@ pub unsafe extern "C" fn fpt_face_classify(
             standing: 3,
             loop_index: u32::MAX,
             coedge_index: u32::MAX,
-            reserved: 0,
+            flags: 0,
             parameter: f64::NAN,
         });
         let out = output("out", out.cast::<Place>(), count)?;
@@ -329,7 +418,7 @@ pub unsafe extern "C" fn fpt_face_closest(
             }
         };
         places.into_iter().flatten().for_each(|place| store(place, Place::off(Standing::Unknown)));
-        let [u0, u1, v0, v1] = face.surface().surface().domain();
+        let [u0, u1, v0, v1] = face.support().domain();
         let hint = |i: usize| {
             let [u, v] = hints.as_ref()?.row(i);
             (!u.is_nan() && !v.is_nan()).then(|| [u.clamp(u0, u1), v.clamp(v0, v1)])
@@ -344,7 +433,7 @@ pub unsafe extern "C" fn fpt_face_closest(
         let callbacks = Callbacks::of(&given);
         let row = |i: usize| points.row(i);
         let order: Option<batch::Place> =
-            if face.surface().memory() > LARGE { Some(&row) } else { None };
+            if face.surface_memory() > LARGE { Some(&row) } else { None };
         let threads = given.thread_count();
         batch::run(out, threads, order, &work, &mut |done| callbacks.poll(done, count))?;
         callbacks.report(count, count);

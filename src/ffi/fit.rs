@@ -69,7 +69,8 @@ pub struct fpt_fit_options {
     pub max_poles: usize,
     /// 1: parameters stay as they are; 0: each point is fitted at its foot. For fpt_curve_fit and fpt_surface_fit.
     pub keep_parameters: u32,
-    /// 1: fpt_surface_fit_grid asks for the feet of all points, too, with proof; 0: distances are those at the parameters.
+    /// 1: fpt_surface_fit_grid finds how far the points are from their feet and proves how far the worst is; 0: distances are those at the
+    /// parameters.
     pub certify: u32,
     /// 0: all cores, 1: the calling thread only. Results are the same bits for any number.
     pub threads: u32,
@@ -87,13 +88,14 @@ pub struct fpt_fit_options {
 pub struct fpt_fit_result {
     /// No data point is farther from the shape than this.
     pub worst: f64,
-    /// Proven: some data point is at least that far away. 0 when feet were not asked for.
+    /// Proven: some data point is at least that far away. `worst` exceeds it by 1e-10 of the shape's box at most, unless points are
+    /// `unproven`. 0 when feet were not asked for.
     pub at_least: f64,
-    /// Root of the mean of the squared distances.
+    /// Root of the mean of the squared distances from the places that were found.
     pub rms: f64,
     /// The data point with the distance `worst`.
     pub worst_index: u64,
-    /// Data points whose distance is an upper bound only: a nearer place was not excluded.
+    /// Data points that may be farther away than `at_least`: no nearer place was found, and none excluded.
     pub unproven: u64,
 }
 
@@ -477,7 +479,7 @@ pub unsafe extern "C" fn fpt_surface_interpolate(
 
 /// A surface near a grid of points: knots are added in both directions until no point is farther than the tolerance from the surface at
 /// the point's parameters, an upper bound of its distance. Corners are met. Where the tolerance is not reached result->worst is above it.
-/// Cost: about 50 ms for 100,000 points; certified, 0.4 s.
+/// Cost: about 15 ms for 100,000 points; certified, 35 ms.
 ///
 /// @param points   x,y,z of point (i,j) at 3*(i*count_v + j)
 /// @param options  must not be NULL: tolerance; degrees, spacing, max_poles, certify, threads and should_stop count

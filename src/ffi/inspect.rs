@@ -4,7 +4,7 @@ use super::curve::{self, fpt_curve};
 use super::inspect_records::{
     choice, fpt_inspect_continuity, fpt_inspect_curvature, fpt_inspect_distance, fpt_inspect_kind,
     fpt_inspect_options, fpt_inspect_pattern, fpt_inspect_picture_options, fpt_inspect_place,
-    fpt_inspect_quantity, fpt_inspect_range, fpt_inspect_tooth, sized_or_default,
+    fpt_inspect_quantity, fpt_inspect_range, fpt_inspect_side, fpt_inspect_tooth, sized_or_default,
 };
 use super::limits::check_inside_at;
 use super::memory::{array, output, place, product, shared, write};
@@ -15,11 +15,11 @@ use super::{Failure, fpt_status, guard};
 use crate::bounds::Vector;
 use crate::index::{IndexedCurve, IndexedSurface};
 use crate::inspect::{
-    HausdorffOptions, Pattern, PictureOptions, Quantity, Range, RangeOptions, Shape, Trend,
+    HausdorffOptions, Pattern, PictureOptions, Quantity, Range, RangeOptions, Shape, Side, Trend,
     continuity, curvatures, curve_range, hausdorff, inflections, monotone_pieces, picture,
     plane_normal, surface_range, tooth, umbilics,
 };
-use crate::knots::Side;
+use crate::knots;
 
 /// Places of one kind, in order. Immutable, owned by the caller, released by fpt_inspect_set_free.
 pub struct fpt_inspect_set {
@@ -37,10 +37,23 @@ unsafe fn read(
     // SAFETY: the caller vouches for it.
     let given = unsafe { sized_or_default("options", options) }?;
     check_length("accuracy", given.accuracy)?;
+    if given.reserved != 0 {
+        return Err(Failure::invalid(format!("reserved: {} must be 0", given.reserved)));
+    }
     let budget = if given.budget > 0 { given.budget } else { RangeOptions::default().budget };
     let domain = restriction(&given.domain[..used])?;
-    let core = RangeOptions { domain, relative: given.relative, budget };
+    let core = RangeOptions { domain, relative: given.relative, side: side(given.side)?, budget };
     Ok((given, core, Callbacks::stopping(given.should_stop, given.user)))
+}
+
+fn side(number: u32) -> Result<Side, Failure> {
+    use fpt_inspect_side::*;
+    let sides = [
+        (FPT_SIDE_BOTH as u32, Side::Both),
+        (FPT_SIDE_LEAST as u32, Side::Least),
+        (FPT_SIDE_GREATEST as u32, Side::Greatest),
+    ];
+    choice("side", number, &sides, "an fpt_inspect_side value")
 }
 
 fn quantity(number: u32) -> Result<Quantity, Failure> {
@@ -80,6 +93,7 @@ fn record(range: &Range, domain: [f64; 4]) -> fpt_inspect_range {
         at_least: range.at_least,
         at_greatest: range.at_greatest,
         excluded: excluded / extent(domain),
+        moved: range.moved,
         boxes: range.boxes,
         proven: range.proven.into(),
         reserved: 0,
@@ -157,7 +171,7 @@ pub unsafe extern "C" fn fpt_inspect_comb(
             check_inside_at("parameters", i, "u", u, start, end)?;
         }
         for (out, &u) in output("out", out, count)?.iter_mut().zip(parameters) {
-            let t = tooth(curve, u, Side::Above);
+            let t = tooth(curve, u, knots::Side::Above);
             let (point, tangent, bend) = (t.point, t.tangent, t.bend);
             let (curvature, torsion) = (t.curvature, t.torsion);
             *out = fpt_inspect_tooth { u, point, tangent, bend, curvature, torsion };
@@ -190,7 +204,7 @@ pub unsafe extern "C" fn fpt_inspect_curvatures(
             check_inside_at("parameters", i, "v", v, v0, v1)?;
         }
         for (out, &at) in output("out", out, count)?.iter_mut().zip(parameters) {
-            *out = match curvatures(surface, at, [Side::Above; 2]) {
+            *out = match curvatures(surface, at, [knots::Side::Above; 2]) {
                 Some(c) => fpt_inspect_curvature {
                     point: c.point,
                     normal: c.normal,

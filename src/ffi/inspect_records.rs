@@ -22,6 +22,18 @@ pub enum fpt_inspect_quantity {
     FPT_QUANTITY_SHARPEST = 4,
 }
 
+/// Which extremes of a range are looked for, for fpt_inspect_options.side.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub enum fpt_inspect_side {
+    /// The least value and the greatest.
+    FPT_SIDE_BOTH = 0,
+    /// The least one.
+    FPT_SIDE_LEAST = 1,
+    /// The greatest one: of FPT_QUANTITY_SHARPEST that is the least radius, in half the time or less.
+    FPT_SIDE_GREATEST = 2,
+}
+
 /// What a picture shows, for fpt_inspect_picture_options.pattern.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -87,6 +99,10 @@ pub struct fpt_inspect_options {
     pub should_stop: Option<unsafe extern "C" fn(user: *mut c_void) -> c_int>,
     /// Handed to should_stop as it is.
     pub user: *mut c_void,
+    /// Ranges: a value of fpt_inspect_side, which extremes must have the gap; bounds of the other one are true, but loose.
+    pub side: u32,
+    /// Must be 0.
+    pub reserved: u32,
 }
 
 // SAFETY: repr(C), begins with struct_size; numbers, raw pointers and nullable function pointers.
@@ -102,6 +118,8 @@ unsafe impl SelfSized for fpt_inspect_options {
             budget: 0,
             should_stop: None,
             user: std::ptr::null_mut(),
+            side: fpt_inspect_side::FPT_SIDE_BOTH as u32,
+            reserved: 0,
         }
     }
 }
@@ -150,7 +168,7 @@ unsafe impl SelfSized for fpt_inspect_picture_options {
     }
 }
 
-/// The least and the greatest value of a quantity, each between two bounds: 88 bytes, frozen.
+/// The least and the greatest value of a quantity, each between two bounds: 96 bytes, frozen.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct fpt_inspect_range {
@@ -162,9 +180,12 @@ pub struct fpt_inspect_range {
     pub at_least: [f64; 2],
     /// Parameters where the inner bound of the greatest is attained; curves: u, 0.
     pub at_greatest: [f64; 2],
-    /// Share of the domain of which nothing is proven: beside collapsed edges and cusps, where curvatures are not bounded. The
-    /// bounds hold for the rest.
+    /// Share of the domain of which nothing is proven: beside tips and cusps, where curvatures are not bounded. The bounds hold for
+    /// the rest.
     pub excluded: f64,
+    /// Length. 0: the bounds are those of the shape. Otherwise those of a shape from which no point of this one is farther, which is
+    /// rounding: beside a pole the rounding of its coordinates alone makes curvatures infinite.
+    pub moved: f64,
     /// Boxes looked at.
     pub boxes: u64,
     /// 1: both gaps are the allowed ones and nothing is excluded.
@@ -275,7 +296,7 @@ pub struct fpt_inspect_distance {
 }
 
 const _: () = {
-    assert!(size_of::<fpt_inspect_range>() == 88 && size_of::<fpt_inspect_tooth>() == 96);
+    assert!(size_of::<fpt_inspect_range>() == 96 && size_of::<fpt_inspect_tooth>() == 96);
     assert!(size_of::<fpt_inspect_curvature>() == 136 && size_of::<fpt_inspect_place>() == 56);
     assert!(size_of::<fpt_inspect_continuity>() == 80 && size_of::<fpt_inspect_distance>() == 48);
     assert!(offset_of!(fpt_inspect_curvature, is_umbilic) == 128);

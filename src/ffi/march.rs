@@ -9,10 +9,13 @@ use super::memory::{output, place, shared, write_array};
 use super::options::{SelfSized, check_length, sized};
 use super::query::Callbacks;
 use super::surface::{self, fpt_surface};
+use super::trim::{self, fpt_trim};
 use super::{Failure, fpt_status, guard};
 use crate::curve::Curve;
 use crate::index::IndexedCurve;
 use crate::march::curves::curves;
+use crate::march::faces::intersect_faces;
+use crate::march::split::{cuts_of, split};
 use crate::march::{ContactKind, End, Intersection, MarchOptions, MarchPoint, Region, intersect};
 use std::ffi::{c_int, c_void};
 use std::mem::{offset_of, size_of};
@@ -35,6 +38,8 @@ pub enum fpt_branch_end {
     FPT_BRANCH_END_CONTACT = 2,
     /// An undecided box is there.
     FPT_BRANCH_END_UNDECIDED = 3,
+    /// A trim: end_index is 0 for one of A, 1 for one of B.
+    FPT_BRANCH_END_TRIM = 4,
 }
 
 /// What a contact is, for fpt_intersection_contact.kind.
@@ -129,10 +134,16 @@ pub struct fpt_intersection_branch {
     pub point_count: usize,
     /// Greatest distance between the two surface points of one of its points.
     pub gap: f64,
+    /// Proven: between two points the branch stays within this of their chord. Infinite where nothing is proven.
+    pub chord: f64,
     /// 1: the surfaces touch along it.
     pub is_tangential: u32,
+    /// 1: it bounds an area in which the surfaces coincide; then it is tangential too.
+    pub bounds_overlap: u32,
     /// 1: it is a loop; its first point comes again as the last.
     pub is_closed: u32,
+    /// 0.
+    pub reserved: u32,
     /// Values of fpt_branch_end, of its beginning and its end.
     pub end_kind: [u32; 2],
     /// What they refer to.
@@ -217,28 +228,76 @@ pub unsafe extern "C" fn fpt_intersect_surfaces(
     // SAFETY: the header asks for live handles, options and room for a handle.
     guard(|| unsafe {
         let (a, b) = (surface::indexed_as("a", a)?, surface::indexed_as("b", b)?);
-        let given = if options.is_null() {
-            fpt_intersect_surfaces_options::default()
-        } else {
-            sized("options", options)?
-        };
-        check_length("chord", given.chord)?;
+        let (asked, callbacks) = asked(options)?;
         let out = place("out", out)?;
-        let callbacks = Callbacks::telling(given.should_stop, given.progress, given.user);
-        let asked = MarchOptions { chord: given.chord, budget: given.budget };
         let found = intersect(a, b, &asked, &mut |done, left| {
             callbacks.poll(done as usize, (done + left) as usize)
         })?;
-        let (exhausted, left) = (found.exhausted, found.undecided.len());
-        *out = Box::into_raw(Box::new(fpt_surface_intersection { found }));
-        if !exhausted {
-            return Ok(());
-        }
-        let text = format!(
-            "budget: ran out with {left} boxes undecided; see fpt_surface_intersection_undecided"
-        );
-        Err(Failure::Budget(text))
+        handed_out(found, out)
     })
+}
+
+/// All that two faces have in common: as fpt_intersect_surfaces of their supports, cut off at their trims (FPT_BRANCH_END_TRIM). A whole
+/// support is a face too: fpt_trim_whole.
+///
+/// Parameters are those of the supports; elementary ones are intersected in their exact NURBS form. A support given by a function is meshed
+/// and walked along: nothing is proven then, and one undecided box is all of both domains. A face holds its border; what runs along
+/// a trim is kept, and listed as undecided.
+///
+/// @param a, b     the faces
+/// @param options  NULL: the defaults
+/// @param out      the result; release it with fpt_surface_intersection_free
+/// @return FPT_BUDGET_EXHAUSTED with a result that misses what lies in its undecided boxes
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_intersect_trims(
+    a: *const fpt_trim,
+    b: *const fpt_trim,
+    options: *const fpt_intersect_surfaces_options,
+    out: *mut *mut fpt_surface_intersection,
+) -> fpt_status {
+    // SAFETY: the header asks for live handles, options and room for a handle.
+    guard(|| unsafe {
+        let (a, b) = (trim::face("a", a)?, trim::face("b", b)?);
+        let (asked, callbacks) = asked(options)?;
+        let out = place("out", out)?;
+        let found = intersect_faces(a, b, &asked, &mut |done, left| {
+            callbacks.poll(done as usize, (done + left) as usize)
+        })?;
+        handed_out(found, out)
+    })
+}
+
+/// The options of a call; NULL: the defaults.
+///
+/// # Safety
+/// NULL or options with a size that is true.
+unsafe fn asked(
+    options: *const fpt_intersect_surfaces_options,
+) -> Result<(MarchOptions, Callbacks), Failure> {
+    let given = if options.is_null() {
+        fpt_intersect_surfaces_options::default()
+    } else {
+        // SAFETY: the caller vouches for it.
+        unsafe { sized("options", options)? }
+    };
+    check_length("chord", given.chord)?;
+    let callbacks = Callbacks::telling(given.should_stop, given.progress, given.user);
+    Ok((MarchOptions { chord: given.chord, budget: given.budget }, callbacks))
+}
+
+/// Hands a result to the caller, with the failure of a budget that ran out.
+fn handed_out(found: Intersection, out: &mut *mut fpt_surface_intersection) -> Result<(), Failure> {
+    let (exhausted, left) = (found.exhausted, found.undecided.len());
+    *out = Box::into_raw(Box::new(fpt_surface_intersection { found }));
+    if !exhausted {
+        return Ok(());
+    }
+    let text = format!(
+        "budget: ran out with {left} boxes undecided; see fpt_surface_intersection_undecided"
+    );
+    Err(Failure::Budget(text))
 }
 
 /// Counts and verdicts.
@@ -284,13 +343,17 @@ pub unsafe extern "C" fn fpt_surface_intersection_branch(
             End::Border(side) => (fpt_branch_end::FPT_BRANCH_END_BORDER, u32::from(side)),
             End::Contact(contact) => (fpt_branch_end::FPT_BRANCH_END_CONTACT, contact as u32),
             End::Undecided => (fpt_branch_end::FPT_BRANCH_END_UNDECIDED, 0),
+            End::Trim(whose) => (fpt_branch_end::FPT_BRANCH_END_TRIM, u32::from(whose)),
         };
         let [(first, i), (last, j)] = branch.ends.map(end);
         *place("out", out)? = fpt_intersection_branch {
             point_count: branch.points.len(),
             gap: branch.gap,
+            chord: branch.chord,
             is_tangential: u32::from(branch.is_tangential),
+            bounds_overlap: u32::from(branch.bounds_overlap),
             is_closed: u32::from(branch.is_closed()),
+            reserved: 0,
             end_kind: [first as u32, last as u32],
             end_index: [i, j],
         };
@@ -402,8 +465,8 @@ pub unsafe extern "C" fn fpt_surface_intersection_undecided(
 /// @param part        which part between two seams; beyond the count of parts FPT_INVALID_ARGUMENT
 /// @param out_count   the number of parts
 /// @param out_curves  3 handles: in space, in A's domain, in B's domain; release each with fpt_curve_free
-/// @param out_error   greatest distance that was measured, 16 places a span: of the curve from either surface (certified), and from
-///                    the surface points at its parameters
+/// @param out_error   proven: at equal parameters the curve is nowhere farther from the surface points at its parameters, and so from
+///                    both surfaces
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
@@ -433,6 +496,47 @@ pub unsafe extern "C" fn fpt_surface_intersection_curves(
         let made = parts.swap_remove(part);
         *error = made.error;
         out.copy_from_slice(&[handed(made.space), handed(made.uv), handed(made.st)]);
+        Ok(())
+    })
+}
+
+/// The faces into which the branches cut one of the two faces that they came from. Cuts are polylines in its domain and in space, as near as the
+/// chord tolerance made them. Branches that end inside the face, and tangential ones, cut nothing.
+///
+/// @param trim       the first (which = 0) or the second (which = 1) face of the intersection
+/// @param tolerance  length, > 0: within it ends of branches meet loops and one another
+/// @param capacity   room in out_trims, at least the number of faces, else FPT_INVALID_ARGUMENT with *out_count set
+/// @param out_trims  handles; release each with fpt_trim_free
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_surface_intersection_split(
+    intersection: *const fpt_surface_intersection,
+    trim: *const fpt_trim,
+    which: u32,
+    tolerance: f64,
+    capacity: usize,
+    out_trims: *mut *mut fpt_trim,
+    out_count: *mut usize,
+) -> fpt_status {
+    // SAFETY: the header asks for live handles and room for the outputs.
+    guard(|| unsafe {
+        let found = &shared("intersection", intersection)?.found;
+        let face = trim::face("trim", trim)?;
+        if which > 1 {
+            return Err(Failure::invalid(format!("which: {which} is not 0 or 1")));
+        }
+        let count = place("out_count", out_count)?;
+        let faces = split(face, &cuts_of(found, which == 1)?, tolerance)?.faces;
+        *count = faces.len();
+        if capacity < faces.len() {
+            let text = format!("capacity: {capacity} given, {} faces", faces.len());
+            return Err(Failure::invalid(text));
+        }
+        let out = output("out_trims", out_trims, faces.len())?;
+        for (out, face) in out.iter_mut().zip(faces) {
+            *out = fpt_trim::handle(face);
+        }
         Ok(())
     })
 }

@@ -4,9 +4,11 @@ use super::curve::{fpt_curve, plain};
 use super::limits::check_degree;
 use super::memory::{array, output, place, shared, write};
 use super::operate_curve::hand_over;
+use super::operate_surface::{self, read_direction};
+use super::surface::{self, fpt_surface};
 use super::{Failure, fpt_status, guard};
 use crate::knots::Side;
-use crate::operate::{ArcLength, Joint, PowerCurve};
+use crate::operate::{ArcLength, Crease, Joint, PowerCurve, PowerSurface};
 
 /// The arc length of a curve as a function of its parameter. Immutable: any number of threads may use one at a time. Owned by the caller,
 /// released by fpt_arc_length_free; the curve may be released before.
@@ -76,6 +78,57 @@ impl From<Joint> for fpt_joint {
             curvature_jump: joint.curvature_jump,
         }
     }
+}
+
+/// How the pieces of a surface meet along a knot line: 32 bytes, frozen.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct fpt_knot_line {
+    /// The knot; the seam of a closed surface is reported at the end of the domain.
+    pub value: f64,
+    /// How often it is a knot.
+    pub multiplicity: u32,
+    /// The highest order to which all derivatives across the line agree all along it; 0 is a mere join.
+    pub order: u32,
+    /// No gap between the pieces is wider, anywhere on the line: the hull of the jump. Of rational surfaces this and the next are of the
+    /// homogeneous form, with weights at most 1, around a pole.
+    pub gap: f64,
+    /// No jump of the first derivative across the line is longer.
+    pub first_jump: f64,
+}
+
+impl From<Crease> for fpt_knot_line {
+    fn from(crease: Crease) -> Self {
+        Self {
+            value: crease.value,
+            multiplicity: crease.multiplicity as u32,
+            order: crease.order as u32,
+            gap: crease.jumps[0],
+            first_jump: crease.jumps[1],
+        }
+    }
+}
+
+/// Hands a list of numbers over, when there is room.
+///
+/// # Safety
+/// NULL or room for `capacity` numbers; NULL or room for one.
+unsafe fn numbers(
+    list: Vec<f64>,
+    capacity: usize,
+    out: *mut f64,
+    out_count: *mut usize,
+) -> Result<(), Failure> {
+    // SAFETY: the caller vouches for both.
+    let out_count = unsafe { place("out_count", out_count) }?;
+    if capacity < list.len() {
+        let text = format!("capacity: {capacity} given, {} needed", list.len());
+        return Err(Failure::invalid(text));
+    }
+    // SAFETY: as above; there is room for as many.
+    unsafe { output("out", out, list.len()) }?.copy_from_slice(&list);
+    *out_count = list.len();
+    Ok(())
 }
 
 /// The arc length behind a handle.
@@ -276,18 +329,8 @@ pub unsafe extern "C" fn fpt_curve_power(
     // SAFETY: the header asks for a live handle and room for what comes out.
     guard(|| unsafe {
         let pieces = plain(curve)?.power_pieces()?;
-        let out_count = place("out_count", out_count)?;
-        let flat: Vec<f64> =
-            pieces.iter().flat_map(|piece| piece.coefficients.as_flattened()).copied().collect();
-        if capacity < flat.len() {
-            return Err(Failure::invalid(format!(
-                "capacity: {capacity} given, {} needed",
-                flat.len()
-            )));
-        }
-        output("out", out, flat.len())?.copy_from_slice(&flat);
-        *out_count = flat.len();
-        Ok(())
+        let all = pieces.iter().flat_map(|piece| piece.coefficients.as_flattened());
+        numbers(all.copied().collect(), capacity, out, out_count)
     })
 }
 
@@ -308,10 +351,95 @@ pub unsafe extern "C" fn fpt_curve_from_power(
 ) -> fpt_status {
     // SAFETY: the header asks for an array and room for a handle.
     guard(|| unsafe {
-        check_degree("degree", degree, degree + 1)?;
+        check_degree("degree", degree, degree.saturating_add(1))?;
         let coefficients = array("coefficients", coefficients.cast::<[f64; 4]>(), degree + 1)?;
         let out = place("out", out)?;
         let power = PowerCurve { domain: [start, end], coefficients: coefficients.to_vec() };
         hand_over(crate::curve::Curve::from_power(&power)?, out)
+    })
+}
+
+/// How the pieces of a surface meet along its knot lines of a direction inside the domain and, if it is closed there, along the seam.
+///
+/// @param direction  FPT_DIRECTION_U: lines of constant u; or FPT_DIRECTION_V
+/// @param tolerance  as in fpt_curve_continuity
+/// @param capacity   room in out; one record a knot value is enough
+/// @param out_count  the number of records, also when there is not room for all
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_surface_continuity(
+    surface: *const fpt_surface,
+    direction: u32,
+    tolerance: f64,
+    capacity: usize,
+    out: *mut fpt_knot_line,
+    out_count: *mut usize,
+) -> fpt_status {
+    // SAFETY: the header asks for a live handle and room for what comes out.
+    guard(|| unsafe {
+        let direction = read_direction(direction)?;
+        let lines = surface::plain(surface)?.continuity(direction, tolerance)?;
+        let out_count = place("out_count", out_count)?;
+        let out = output("out", out, capacity)?;
+        *out_count = lines.len();
+        for (line, out) in lines.into_iter().zip(out) {
+            *out = line.into();
+        }
+        Ok(())
+    })
+}
+
+/// The powers of local parameters s and t, each 0 to 1 on every patch: w x, w y, w z, w of s^k t^l of patch (i,j) at
+/// 4 * (((i * patches_v + j) * (degree_u + 1) + k) * (degree_v + 1) + l). As fpt_curve_power.
+///
+/// @param capacity   room in out, in numbers
+/// @param out_count  how many there are: 4 * patches * (degree_u + 1) * (degree_v + 1); FPT_INVALID_ARGUMENT when there is not room for all
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_surface_power(
+    surface: *const fpt_surface,
+    capacity: usize,
+    out: *mut f64,
+    out_count: *mut usize,
+) -> fpt_status {
+    // SAFETY: the header asks for a live handle and room for what comes out.
+    guard(|| unsafe {
+        let (patches, _) = surface::plain(surface)?.power_pieces()?;
+        let all = patches.iter().flat_map(|patch| patch.coefficients.as_flattened());
+        numbers(all.copied().collect(), capacity, out, out_count)
+    })
+}
+
+/// The Bezier patch of powers of local parameters, 0 at the beginnings of the domain and 1 at its ends.
+///
+/// @param degree_u      1 to 31
+/// @param degree_v      1 to 31
+/// @param domain        u0,u1,v0,v1
+/// @param coefficients  4 * (degree_u + 1) * (degree_v + 1) numbers: w x, w y, w z, w of s^k t^l at 4 * (k * (degree_v + 1) + l); polynomial:
+///                      w is 1 for k = l = 0, else 0
+/// @param out           the surface; release it with fpt_surface_free
+/// @return FPT_UNSUPPORTED when a Bezier weight is not positive
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_surface_from_power(
+    degree_u: usize,
+    degree_v: usize,
+    domain: *const f64,
+    coefficients: *const f64,
+    out: *mut *mut fpt_surface,
+) -> fpt_status {
+    // SAFETY: the header asks for arrays and room for a handle.
+    guard(|| unsafe {
+        check_degree("degree_u", degree_u, degree_u.saturating_add(1))?;
+        check_degree("degree_v", degree_v, degree_v.saturating_add(1))?;
+        let domain = operate_surface::four("domain", domain)?;
+        let count = (degree_u + 1) * (degree_v + 1);
+        let coefficients = array("coefficients", coefficients.cast::<[f64; 4]>(), count)?.to_vec();
+        let out = place("out", out)?;
+        let power = PowerSurface { domain, degree: [degree_u, degree_v], coefficients };
+        operate_surface::hand_over(crate::surface::Surface::from_power(&power)?, out)
     })
 }

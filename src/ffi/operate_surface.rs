@@ -20,7 +20,7 @@ pub enum fpt_direction {
     FPT_DIRECTION_V = 1,
 }
 
-fn read_direction(direction: u32) -> Result<Direction, Failure> {
+pub(super) fn read_direction(direction: u32) -> Result<Direction, Failure> {
     use fpt_direction::*;
     match direction {
         d if d == FPT_DIRECTION_U as u32 => Ok(Direction::U),
@@ -33,7 +33,7 @@ fn handle(surface: Surface) -> *mut fpt_surface {
     fpt_surface::handle(SurfaceForm::Spline(Arc::new(IndexedSurface::new(surface))))
 }
 
-fn hand_over(surface: Surface, out: &mut *mut fpt_surface) -> Result<(), Failure> {
+pub(super) fn hand_over(surface: Surface, out: &mut *mut fpt_surface) -> Result<(), Failure> {
     *out = handle(surface);
     Ok(())
 }
@@ -58,7 +58,7 @@ unsafe fn bounded(
 ///
 /// # Safety
 /// NULL or an array of four numbers.
-unsafe fn four(name: &'static str, numbers: *const f64) -> Result<[f64; 4], Failure> {
+pub(super) unsafe fn four(name: &'static str, numbers: *const f64) -> Result<[f64; 4], Failure> {
     // SAFETY: the caller vouches for it.
     let numbers = unsafe { array(name, numbers, 4) }?;
     Ok([numbers[0], numbers[1], numbers[2], numbers[3]])

@@ -7,10 +7,10 @@ use super::records::{feet, fpt_foot_point};
 use super::surface::{self, fpt_surface};
 use super::transform::{circle_form, fpt_transform};
 use super::{Failure, fpt_status, guard};
-use crate::elementary::{Axes, CircleForm, Elementary, ElementarySurface};
+use crate::elementary::{Axes, CircleForm, Elementary, ElementarySurface, arc_by_angle};
 use crate::error::Error;
-use crate::ffi::form::SurfaceForm;
-use crate::index::IndexedSurface;
+use crate::ffi::form::{CurveForm, SurfaceForm};
+use crate::index::{IndexedCurve, IndexedSurface};
 use crate::trim::{Matching, Support, form_transform};
 use std::mem::size_of;
 use std::sync::Arc;
@@ -135,6 +135,40 @@ pub(super) unsafe fn forms(
     // SAFETY: the caller vouches for it.
     let arcs = unsafe { array("arcs", arcs, 2) }?;
     Ok([circle_form(arcs[0]), circle_form(arcs[1])])
+}
+
+/// The arc centre + cos t first + sin t second of a circle or an ellipse, as a polynomial spline of its angle t: off by some roundings of its
+/// largest coordinate. For edges and meridians whose parameter is an angle; exact arcs (fpt_curve_arc) have another parameter.
+///
+/// @param center  3 numbers
+/// @param first   3 numbers: the half diameter of t = 0
+/// @param second  3 numbers: the half diameter of a quarter turn
+/// @param angles  first and last t, increasing, at most a full turn apart
+/// @param out     the handle; release it with fpt_curve_free
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_curve_arc_by_angle(
+    center: *const f64,
+    first: *const f64,
+    second: *const f64,
+    angles: *const f64,
+    out: *mut *mut fpt_curve,
+) -> fpt_status {
+    // SAFETY: the header asks for arrays of these lengths and room for a handle.
+    guard(|| unsafe {
+        let out = place("out", out)?;
+        let vector = |name, from| array(name, from, 3).map(|v: &[f64]| [v[0], v[1], v[2]]);
+        let angles = array("angles", angles, 2)?;
+        let curve = arc_by_angle(
+            vector("center", center)?,
+            vector("first", first)?,
+            vector("second", second)?,
+            [angles[0], angles[1]],
+        )?;
+        *out = fpt_curve::handle(CurveForm::Spline(Arc::new(IndexedCurve::new(curve))));
+        Ok(())
+    })
 }
 
 /// A support of a surface, spline or function. The search index is shared with it.

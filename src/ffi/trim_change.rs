@@ -59,12 +59,12 @@ unsafe impl SelfSized for fpt_change_options {
 pub struct fpt_change_summary {
     /// Largest distance of old and new images of a curve at the same parameter: 0 where all are exact.
     pub deviation: f64,
-    /// Largest distance of the old and the new surface at the places where they were compared.
+    /// Largest distance of the old and the new surface at places that belong together.
     pub surface_deviation: f64,
     /// 1: the deviation is proven; 0: it is the largest at samples.
     pub proven: u32,
-    /// 0.
-    pub reserved: u32,
+    /// 1: that of the surfaces is proven; 0: it is the largest at 33 x 33 places.
+    pub surface_proven: u32,
 }
 
 /// Sets all options to their defaults.
@@ -129,7 +129,7 @@ unsafe fn hand_over(
         deviation: changed.deviation,
         surface_deviation: changed.surface_deviation,
         proven: u32::from(changed.proven),
-        reserved: 0,
+        surface_proven: u32::from(changed.surface_proven),
     };
     if !out_summary.is_null() {
         // SAFETY: the caller vouches for it.

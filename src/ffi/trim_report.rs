@@ -61,7 +61,7 @@ pub struct fpt_trim_finding {
     pub numbers: [f64; 3],
 }
 
-/// A report in a few numbers. 48 bytes, frozen.
+/// A report in a few numbers. 56 bytes, frozen.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct fpt_trim_summary {
@@ -69,8 +69,11 @@ pub struct fpt_trim_summary {
     pub tolerance: f64,
     /// Largest distance of a coedge's end and the next one's beginning, in space.
     pub largest_opening: f64,
-    /// Largest distance of a pcurve's image and its edge, at 33 places and all corners of each coedge; not proven between them.
+    /// Largest distance of a pcurve's image and its edge found, at 33 places and all corners of each coedge.
     pub largest_gap: f64,
+    /// Proven: no image of a pcurve and its edge are farther apart, at equal parameters where they share them, else as sets of points.
+    /// Infinite where a function takes part, a pcurve leaves the domain, or no bound could be had.
+    pub gap_bound: f64,
     /// How far the segments that stand for curves may be off, a length; part of the tolerance unless a curve is very long.
     pub segment_error: f64,
     /// 1: coedges without a finding are proven to be disjoint away from common ends; 0: the surface is a function, its speed is known from samples only.
@@ -87,7 +90,7 @@ pub struct fpt_trim_report {
 }
 
 /// Checks a face: open loops, wrong directions, crossing and touching curves, gaps between curves and edges, curves outside of the domain,
-/// containment of loops. Cost: milliseconds.
+/// containment of loops. Cost: milliseconds, some ten where edges have other parameters than their coedges.
 ///
 /// @param tolerance  length, finite, >= 0; 0: 1e-7 x the diagonal of the surface's box
 /// @param out        the report; release it with fpt_trim_report_free
@@ -132,6 +135,7 @@ pub unsafe extern "C" fn fpt_trim_report_summary(
             tolerance: report.tolerance,
             largest_opening: report.largest_opening,
             largest_gap: report.largest_gap,
+            gap_bound: report.gap_bound,
             segment_error: report.segment_error,
             proven: u32::from(report.proven),
             reserved: 0,

@@ -5,23 +5,22 @@
 //!                         -> knots where points are still missed -> ...
 //! ```
 //!
-//! At its foot a point's distance is that from the shape, not from a place that the parametrisation chose: fewer poles do.
-//! In the end every point is asked for globally, with proof.
+//! At its foot a point's distance is that from the shape, not from a place that the parametrisation chose: fewer poles do. On surfaces a
+//! step of Gauss and Newton towards the foot is enough of a correction, since the next fit moves the feet anyway.
 //!
-//! What is proven: for every data point an upper bound of its distance from the result (the distance of a point of the result) and a
-//! lower one; so `worst` is not exceeded by any data point, and some data point is at least `at_least` away. Nothing is said
-//! between the data points.
+//! What is proven ([`super::certificate`]): `worst` is not exceeded by any data point, and some data point is at least `at_least` away.
+//! Nothing is said between the data points.
 //!
 //! Reference: Hoschek, *Intrinsic parametrization for approximation*, Computer Aided Geometric Design 5, 1988.
 
 use super::adaptive::cuts;
+use super::certificate::{Certificate, Poll, approached, certify, farthest, feet, size};
 use super::parameters::{check_parameters, check_points};
 use super::scattered::Design;
 use super::{Adaptive, Ends, fitted};
 use crate::analytic::linear::{add_square, any_frame, least_direction};
-use crate::batch;
 use crate::bounds::{Vector, dot, norm, sub};
-use crate::closest::{FootPoint, QueryOptions, Scope, Workspace, flag};
+use crate::closest::{FootPoint, QueryOptions, Scope, Workspace};
 use crate::curve::Curve;
 use crate::error::Error;
 use crate::index::{IndexedCurve, IndexedSurface};
@@ -50,62 +49,15 @@ impl Default for NearOptions {
     }
 }
 
-/// What is known of the distances of the data points from a shape.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Certificate {
-    /// No data point is farther from the shape than this.
-    pub worst: f64,
-    /// The data point with that distance.
-    pub worst_index: usize,
-    /// Some data point is at least that far from the shape: the greatest proven lower bound.
-    pub at_least: f64,
-    /// Root of the mean of the squared distances.
-    pub rms: f64,
-    /// Data points whose distance is an upper bound only: a nearer place was not excluded.
-    pub unproven: usize,
-}
-
 /// A shape near points, the parameters of their feet, and what is proven.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Near<S, P> {
     /// The result.
     pub shape: S,
-    /// The parameters of every point's foot.
+    /// Parameters of a place near every point: its foot, or one that is not farther away than the worst point's.
     pub parameters: Vec<P>,
     /// The distances.
     pub certificate: Certificate,
-}
-
-/// Asked now and then; true stops the work.
-pub type Poll<'a> = &'a mut dyn FnMut() -> bool;
-
-fn summary(feet: &[FootPoint]) -> Certificate {
-    let mut all = Certificate::default();
-    let mut sum = 0.0;
-    for (i, foot) in feet.iter().enumerate() {
-        sum += foot.distance * foot.distance;
-        all.at_least = all.at_least.max(foot.lower_bound);
-        all.unproven += usize::from(foot.flags & flag::NOT_PROVEN != 0);
-        if foot.distance > all.worst || i == 0 {
-            (all.worst, all.worst_index) = (foot.distance, i);
-        }
-    }
-    all.rms = (sum / feet.len() as f64).sqrt();
-    all
-}
-
-/// Feet of all points; `ask` answers for one.
-fn feet(
-    points: &[Vector],
-    threads: usize,
-    ask: &(dyn Fn(usize, &mut Workspace) -> FootPoint + Sync),
-    poll: Poll,
-) -> Result<Vec<FootPoint>, Error> {
-    let mut out = Vec::new();
-    out.try_reserve_exact(points.len()).map_err(|_| Error::OutOfMemory)?;
-    out.resize(points.len(), FootPoint::unreached());
-    batch::run(&mut out, threads, None, ask, &mut |_| poll())?;
-    Ok(out)
 }
 
 const LOCAL: QueryOptions = QueryOptions {
@@ -187,7 +139,7 @@ pub fn curve_near(
             let ask = |i: usize, workspace: &mut Workspace| {
                 shape.closest(points[i], Some(at[i]), &LOCAL, workspace, None)
             };
-            let found = feet(points, options.threads, &ask, poll)?;
+            let found = feet(points.len(), options.threads, &ask, poll)?;
             let mut next = at.clone();
             for i in 1..points.len() - 1 {
                 if found[i].distance < missed[i] {
@@ -228,14 +180,20 @@ pub fn curve_near(
     let Some((curve, at, _)) = kept else {
         return Err(Error::InvalidArgument("points: no curve".into()));
     };
+    let size = size(curve.poles());
     let shape = IndexedCurve::new(curve);
-    let global = QueryOptions::default();
-    let ask = |i: usize, workspace: &mut Workspace| {
-        shape.closest(points[i], Some(at[i]), &global, workspace, None)
+    let from_hint = |i: usize, hint: f64, options: &QueryOptions, workspace: &mut Workspace| {
+        shape.closest(points[i], Some(hint), options, workspace, None)
     };
-    let found = feet(points, options.threads, &ask, poll)?;
+    let near = |i: usize, workspace: &mut Workspace| from_hint(i, at[i], &LOCAL, workspace);
+    let mut found = feet(points.len(), options.threads, &near, poll)?;
+    let global = QueryOptions::default();
+    let ask = |i: usize, foot: &FootPoint, workspace: &mut Workspace| {
+        from_hint(i, foot.u, &global, workspace)
+    };
+    let certificate = farthest(&mut found, size, options.threads, &ask, poll)?;
     let parameters = found.iter().map(|foot| foot.u).collect();
-    Ok(Near { shape: shape.curve().clone(), parameters, certificate: summary(&found) })
+    Ok(Near { shape: shape.curve().clone(), parameters, certificate })
 }
 
 fn worst(missed: &[f64]) -> f64 {
@@ -244,27 +202,6 @@ fn worst(missed: &[f64]) -> f64 {
 
 fn missed_by(curve: &Curve, points: &[Vector], at: &[f64]) -> Vec<f64> {
     points.iter().zip(at).map(|(p, &t)| norm(curve.vector_from(*p, t))).collect()
-}
-
-/// The distances of points from a surface, with proof; `hints` are parameters near their feet.
-///
-/// # Errors
-/// [`Error::Cancelled`] when `poll` said so; memory that could not be had.
-pub fn certify(
-    surface: &IndexedSurface,
-    points: &[Vector],
-    hints: Option<&[[f64; 2]]>,
-    threads: usize,
-    poll: Poll,
-) -> Result<(Vec<[f64; 2]>, Certificate), Error> {
-    check_points(points, 1)?;
-    surface.prepare(&mut || false)?;
-    let options = QueryOptions::default();
-    let ask = |i: usize, workspace: &mut Workspace| {
-        surface.closest(points[i], hints.map(|h| h[i]), &options, workspace, None)
-    };
-    let found = feet(points, threads, &ask, poll)?;
-    Ok((found.iter().map(|foot| [foot.u, foot.v]).collect(), summary(&found)))
 }
 
 /// Parameters in the plane that is nearest to the points, along its directions of greatest and least extent.
@@ -336,27 +273,21 @@ pub fn surface_near(
     let mut kept: Option<(Surface, Vec<[f64; 2]>, f64)> = None;
     loop {
         let (mut surface, mut missed) = surface_of(points, &at, &values, options.degrees)?;
-        for _ in 0..options.corrections {
+        for correction in 1..=options.corrections {
             if worst(&missed) <= options.tolerance {
                 break;
             }
-            let shape = IndexedSurface::new(surface.clone());
-            shape.prepare(&mut || false)?;
-            let ask = |i: usize, workspace: &mut Workspace| {
-                shape.closest(points[i], Some(at[i]), &LOCAL, workspace, None)
-            };
-            let found = feet(points, options.threads, &ask, poll)?;
+            let ask = |i: usize, _: &mut Workspace| approached(&surface, points[i], at[i], 1);
+            let found = feet(points.len(), options.threads, &ask, poll)?;
             for (i, foot) in found.iter().enumerate() {
-                if foot.distance < missed[i] {
-                    (at[i], missed[i]) = ([foot.u, foot.v], foot.distance);
-                }
+                (at[i], missed[i]) = ([foot.u, foot.v], foot.distance);
             }
-            let before = worst(&missed);
-            if before <= options.tolerance {
+            let reached = worst(&missed);
+            if correction == options.corrections || reached <= options.tolerance {
                 break;
             }
             let (again, now) = surface_of(points, &at, &values, options.degrees)?;
-            if worst(&now) >= before {
+            if worst(&now) >= reached {
                 break;
             }
             (surface, missed) = (again, now);
@@ -410,7 +341,8 @@ fn surface_of(
     Ok((surface, missed))
 }
 
-/// New knots in the middle of spans: in the cells that miss a point, across their longer side, or both when they are nearly square.
+/// New knots in the middle of spans: in the cells that miss a point, across their longer side, or both when they are nearly square. Halves
+/// only: as long as the detail is not resolved, errors fall faster than any order says, and more pieces are more poles.
 fn new_knots(
     surface: &Surface,
     at: &[[f64; 2]],

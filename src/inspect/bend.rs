@@ -13,7 +13,7 @@
 
 use super::cell::Bending;
 use super::polynomial::Polynomial;
-use super::ranges::segment_piece;
+use super::request::segment_piece;
 use crate::bezier::{Bidegree, MAX_TRIPLE};
 use crate::bounds::{Vector, cross, dot, norm, scaled, sub};
 use crate::curve::Curve;

@@ -15,7 +15,7 @@
 use super::cell::Forms;
 use super::hausdorff::{Directed, HausdorffOptions, Shape, hausdorff};
 use super::interval::Interval;
-use super::ranges::patch_piece;
+use super::request::patch_piece;
 use crate::bounds::{Vector, cross, dot, norm, scaled, sub};
 use crate::closest::{QueryOptions, Workspace};
 use crate::curve::Curve;
@@ -259,7 +259,7 @@ impl Border<'_> {
             if a >= b {
                 continue;
             }
-            let piece = super::ranges::segment_piece(index, k);
+            let piece = super::request::segment_piece(index, k);
             let scale = index.frame.scale;
             let q = sub(index.frame.enter(from), index.segments[k].center);
             let (poles, _) = piece.cut([0.0, 1.0], [a, b]);

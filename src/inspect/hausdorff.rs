@@ -15,7 +15,7 @@
 //! Limit: two shapes that are nearly equal and parametrised differently take boxes in the inverse of the asked gap.
 
 use super::cell::Piece;
-use super::ranges::{patch_piece, segment_piece};
+use super::request::{patch_piece, segment_piece};
 use crate::bezier::cut_2d;
 use crate::bounds::{HALF_ULP, Vector, add, norm, scaled, sub};
 use crate::closest::{FootPoint, QueryOptions, Workspace};

@@ -1,7 +1,7 @@
 //! Curvatures at a place of a surface, and the places where the principal ones are equal.
 
 use super::cell::{Forms, check_degree};
-use super::ranges::{RangeOptions, areas_inside, check, patch_piece};
+use super::request::{RangeOptions, areas_inside, check, patch_piece};
 use crate::bounds::{Vector, add, cross, dot, norm, scaled};
 use crate::error::Error;
 use crate::index::IndexedSurface;

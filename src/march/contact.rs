@@ -9,9 +9,9 @@
 //! two crossing curves; one zero: a tangential curve; both: contact of higher order. Reference: Ye, Maekawa, *Differential geometry
 //! of intersection curves of two surfaces*, 1999.
 
+use super::shape::Shape;
 use crate::bounds::{Vector, add, cross, dot, norm, scaled, sub};
 use crate::portable::SameDigits;
-use crate::surface::Surface;
 
 /// A relative curvature below this share of the greatest curvature there counts as none.
 const NO_CURVATURE: f64 = 1e-5;
@@ -44,14 +44,14 @@ impl Touch {
 }
 
 /// Derivatives of a surface to the second order.
-pub fn second(surface: &Surface, [u, v]: [f64; 2]) -> [Vector; 6] {
+pub fn second(surface: &dyn Shape, [u, v]: [f64; 2]) -> [Vector; 6] {
     let mut out = [[0.0; 3]; 6];
     surface.partials(u, v, 2, &mut out);
     out
 }
 
 /// Moves a parameter pair into the domain.
-pub fn into_domain(surface: &Surface, at: [f64; 2]) -> [f64; 2] {
+pub fn into_domain(surface: &dyn Shape, at: [f64; 2]) -> [f64; 2] {
     let [u0, u1, v0, v1] = surface.domain();
     [at[0].clamp(u0, u1), at[1].clamp(v0, v1)]
 }
@@ -68,7 +68,7 @@ pub fn in_tangent_plane(du: Vector, dv: Vector, want: Vector) -> Option<[f64; 2]
 }
 
 /// The foot of a point near a start: Newton where the squared distance is convex, the tangent plane elsewhere.
-pub fn foot(surface: &Surface, mut at: [f64; 2], point: Vector) -> [f64; 2] {
+pub fn foot(surface: &dyn Shape, mut at: [f64; 2], point: Vector) -> [f64; 2] {
     for _ in 0..20 {
         let [x, du, dv, duu, duv, dvv] = second(surface, at);
         let r = sub(x, point);
@@ -94,7 +94,12 @@ pub fn foot(surface: &Surface, mut at: [f64; 2], point: Vector) -> [f64; 2] {
 }
 
 /// The gap at a place and how the surfaces bend apart; `None` where a surface has no tangent plane.
-pub fn look(a: &Surface, b: &Surface, uv: [f64; 2], near: [f64; 2]) -> Option<(Touch, [f64; 2])> {
+pub fn look(
+    a: &dyn Shape,
+    b: &dyn Shape,
+    uv: [f64; 2],
+    near: [f64; 2],
+) -> Option<(Touch, [f64; 2])> {
     let p = second(a, uv);
     let st = foot(b, near, p[0]);
     let q = second(b, st);
@@ -162,7 +167,7 @@ pub fn look(a: &Surface, b: &Surface, uv: [f64; 2], near: [f64; 2]) -> Option<(T
 }
 
 /// The place of stationary gap near a start; `None` when the iteration leaves `reach` (a length) or does not end.
-pub fn settle(a: &Surface, b: &Surface, start: [f64; 4], reach: f64) -> Option<Touch> {
+pub fn settle(a: &dyn Shape, b: &dyn Shape, start: [f64; 4], reach: f64) -> Option<Touch> {
     let (mut uv, mut st) = ([start[0], start[1]], [start[2], start[3]]);
     let mut gone = 0.0;
     for _ in 0..30 {

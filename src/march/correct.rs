@@ -11,9 +11,9 @@
 //! step has false ends. Fast and allowed to fail: failure is reported by `None`, never by a wrong place.
 
 use super::contact::{foot, in_tangent_plane, into_domain, second};
-use super::pair::{inverse, others};
+use super::shape::Shape;
+use super::system::{inverse, others};
 use crate::bounds::{Vector, add, cross, dot, norm, scaled, sub};
-use crate::surface::Surface;
 
 /// Steps after which an iteration counts as failed.
 const MOST_STEPS: u32 = 50;
@@ -46,14 +46,14 @@ pub struct Corrected {
     pub steps: u32,
 }
 
-fn gap(a: &Surface, b: &Surface, at: [f64; 4]) -> Vector {
+fn gap(a: &dyn Shape, b: &dyn Shape, at: [f64; 4]) -> Vector {
     sub(a.evaluate(at[0], at[1]), b.evaluate(at[2], at[3]))
 }
 
 /// Moves `start` onto both surfaces until the gap is at most `tolerance` and the steps are rounding; `None` when that fails.
 pub fn correct(
-    a: &Surface,
-    b: &Surface,
+    a: &dyn Shape,
+    b: &dyn Shape,
     start: [f64; 4],
     method: Corrector,
     tolerance: f64,
@@ -84,7 +84,7 @@ pub fn correct(
 }
 
 /// One ball transform and one midpoint transform.
-fn maf_step(a: &Surface, b: &Surface, at: [f64; 4], point: &mut Vector) -> [f64; 4] {
+fn maf_step(a: &dyn Shape, b: &dyn Shape, at: [f64; 4], point: &mut Vector) -> [f64; 4] {
     let uv = foot(a, [at[0], at[1]], *point);
     let st = foot(b, [at[2], at[3]], *point);
     let (p, q) = (second(a, uv), second(b, st));
@@ -119,7 +119,7 @@ fn on_both_planes(
 }
 
 /// A Newton step with one parameter held, or with none: then the shortest in space. Borders hold what would leave.
-fn newton(a: &Surface, b: &Surface, at: [f64; 4], held: Option<usize>) -> Option<[f64; 4]> {
+fn newton(a: &dyn Shape, b: &dyn Shape, at: [f64; 4], held: Option<usize>) -> Option<[f64; 4]> {
     let (mut p, mut q) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
     a.partials(at[0], at[1], 1, &mut p);
     b.partials(at[2], at[3], 1, &mut q);

@@ -5,19 +5,23 @@
 //!             coordinates near that function -> split into C(t), (u, v)(t), (s, t)(t) on the same knots
 //! ```
 //!
-//! The error is measured on the result, four times as densely as the fit: the greatest certified distance of C(t) from either surface,
-//! and of C(t) from A(u(t), v(t)) and B(s(t), t(t)). Parameters count in the fit as the lengths that they move.
+//! The error is proven on the result (`pcurve::deviation`): C(t) - A(u(t), v(t)) and C(t) - B(s(t), t(t)) as polynomials, bounded by their
+//! coefficients. Parameters count in the fit as the lengths that they move.
 
 use super::MarchPoint;
 use super::correct::{Corrector, correct};
 use super::join::distance_to_chord;
 use crate::bounds::{Vector, norm, sub};
-use crate::closest::{QueryOptions, Workspace};
 use crate::curve::Curve;
 use crate::error::Error;
 use crate::fit::{Adaptive, interpolate, of_function};
 use crate::index::IndexedSurface;
+use crate::pcurve::compose::Composer;
+use crate::pcurve::deviation::deviation;
 use crate::surface::Surface;
+
+/// Points nearer than this share of the length are one for a fit.
+const CLOSE: f64 = 1e-6;
 
 /// A branch, or the part of it between two seams, as curves with a common parameter.
 pub struct BranchCurves {
@@ -27,9 +31,9 @@ pub struct BranchCurves {
     pub uv: Curve,
     /// In the domain of B, z = 0.
     pub st: Curve,
-    /// Greatest distance of `space` from either surface, and from the surface points of `uv` and `st`, at the places looked at.
+    /// Proven: the greater one of `distance`.
     pub error: f64,
-    /// Greatest certified distance of `space` from A and from B at these places.
+    /// Proven: at equal parameters `space` is nowhere farther from A(`uv`), and from B(`st`), and so from A and from B.
     pub distance: [f64; 2],
 }
 
@@ -90,7 +94,7 @@ pub fn curves(
     for k in 1..=points.len() {
         if k == points.len() || is_seam(&points[k - 1], &points[k], near) {
             if k - start > 1 {
-                all.push(run(a, b, &points[start..k], tolerance)?);
+                all.push(run(a.surface(), b.surface(), &points[start..k], tolerance)?);
             }
             start = k;
         }
@@ -116,35 +120,48 @@ fn scales(a: &Surface, b: &Surface, points: &[MarchPoint]) -> [f64; 4] {
 }
 
 fn run(
-    a: &IndexedSurface,
-    b: &IndexedSurface,
+    sa: &Surface,
+    sb: &Surface,
     points: &[MarchPoint],
     tolerance: f64,
 ) -> Result<BranchCurves, Error> {
-    let (sa, sb) = (a.surface(), b.surface());
     let scale = scales(sa, sb, points);
     let seven = |x: Vector, at: [f64; 4]| {
         [x[0], x[1], x[2], at[0] * scale[0], at[1] * scale[1], at[2] * scale[2], at[3] * scale[3]]
     };
-    let mut parameters = vec![0.0];
-    let mut list = vec![seven(
-        points[0].point,
-        [points[0].uv[0], points[0].uv[1], points[0].st[0], points[0].st[1]],
-    )];
-    for pair in points.windows(2) {
-        let length = norm(sub(pair[1].point, pair[0].point));
-        if length > 0.0 {
+    // Points much nearer to one another than the rest bend a cubic through them at will.
+    let apart = |pair: &[MarchPoint]| norm(sub(pair[1].point, pair[0].point));
+    let near = CLOSE * points.windows(2).map(apart).sum::<f64>();
+    let of = |p: &MarchPoint| seven(p.point, [p.uv[0], p.uv[1], p.st[0], p.st[1]]);
+    let (mut parameters, mut list) = (vec![0.0], vec![of(&points[0])]);
+    let mut kept = &points[0];
+    for (k, point) in points.iter().enumerate().skip(1) {
+        let length = norm(sub(point.point, kept.point));
+        let is_last = k + 1 == points.len();
+        if is_last && length <= near && list.len() > 1 {
+            list.pop();
+            list.push(of(point));
+        } else if length > near {
             parameters.push(parameters[parameters.len() - 1] + length);
-            list.push(seven(
-                pair[1].point,
-                [pair[1].uv[0], pair[1].uv[1], pair[1].st[0], pair[1].st[1]],
-            ));
+            list.push(of(point));
+            kept = point;
         }
     }
-    let total = parameters[parameters.len() - 1];
     if list.len() < 2 {
         return Err(Error::InvalidArgument("branch: has no length".into()));
     }
+    // The parameter runs to a power of two: knots that halve it, and what others do with them, are exact.
+    let length = parameters[parameters.len() - 1];
+    let mut total = 1.0;
+    while total < length {
+        total *= 2.0;
+    }
+    while 0.5 * total >= length && total > f64::MIN_POSITIVE {
+        total *= 0.5;
+    }
+    let count = parameters.len();
+    parameters.iter_mut().for_each(|t| *t *= total / length);
+    parameters[count - 1] = total;
     let base = interpolate(3.min(list.len() - 1), &parameters, &list)?.spline;
     let function = |t: f64| {
         let p = base.evaluate(t);
@@ -161,50 +178,40 @@ fn run(
         );
         Some(seven([0, 1, 2].map(|k| 0.5 * (x[k] + y[k])), at))
     };
-    let options = Adaptive { degree: 3, tolerance: 0.25 * tolerance, ..Adaptive::default() };
-    let spline = of_function(function, [0.0, total], &options)?.spline;
-    let knots = spline.knots().values();
-    let part = |first: usize, scale: [f64; 2]| {
-        let poles: Vec<Vector> = spline
-            .poles()
-            .iter()
-            .map(|p| [p[first] / scale[0], p[first + 1] / scale[1], 0.0])
-            .collect();
-        Curve::new(knots, 3, &poles, None)
-    };
-    let poles: Vec<Vector> = spline.poles().iter().map(|p| [p[0], p[1], p[2]]).collect();
-    let space = Curve::new(knots, 3, &poles, None)?;
-    let (uv, st) = (part(3, [scale[0], scale[1]])?, part(5, [scale[2], scale[3]])?);
-    let mut out = BranchCurves { space, uv, st, error: 0.0, distance: [0.0; 2] };
-    measure(a, b, &mut out);
-    Ok(out)
+    // The fit aims at what it samples; what is proven of it decides.
+    let mut best: Option<BranchCurves> = None;
+    for share in [0.25, 0.06, 0.015] {
+        let options = Adaptive { degree: 3, tolerance: share * tolerance, ..Adaptive::default() };
+        let spline = of_function(function, [0.0, total], &options)?.spline;
+        let knots = spline.knots().values();
+        let part = |first: usize, scale: [f64; 2], surface: &Surface| {
+            // Poles inside the domain keep the curve there.
+            let pole = |p: &[f64; 7]| {
+                let at = clamp(surface, [p[first] / scale[0], p[first + 1] / scale[1]]);
+                [at[0], at[1], 0.0]
+            };
+            let poles: Vec<Vector> = spline.poles().iter().map(pole).collect();
+            Curve::new(knots, 3, &poles, None)
+        };
+        let poles: Vec<Vector> = spline.poles().iter().map(|p| [p[0], p[1], p[2]]).collect();
+        let space = Curve::new(knots, 3, &poles, None)?;
+        let uv = part(3, [scale[0], scale[1]], sa)?;
+        let st = part(5, [scale[2], scale[3]], sb)?;
+        let distance = [
+            deviation(&mut Composer::new(sa), &uv, &space, [0.0, total], 0.5 * tolerance)?.bound,
+            deviation(&mut Composer::new(sb), &st, &space, [0.0, total], 0.5 * tolerance)?.bound,
+        ];
+        let error = distance[0].max(distance[1]);
+        if best.as_ref().is_none_or(|best| error < best.error) {
+            best = Some(BranchCurves { space, uv, st, error, distance });
+        }
+        if error <= tolerance {
+            break;
+        }
+    }
+    best.ok_or_else(|| Error::InvalidArgument("branch: has no curve".into()))
 }
 
 fn clamp(surface: &Surface, at: [f64; 2]) -> [f64; 2] {
     super::contact::into_domain(surface, at)
-}
-
-fn measure(a: &IndexedSurface, b: &IndexedSurface, out: &mut BranchCurves) {
-    let (options, mut workspace) = (QueryOptions::default(), Workspace::default());
-    let knots = out.space.knots();
-    let spans: Vec<[f64; 2]> =
-        knots.spans().map(|k| [knots.values()[k], knots.values()[k + 1]]).collect();
-    for [low, high] in spans {
-        for n in 0..16 {
-            let t = low + (high - low) * (n as f64 + 0.5) / 16.0;
-            let x = out.space.evaluate(t);
-            let (p, q) = (out.uv.evaluate(t), out.st.evaluate(t));
-            let (uv, st) = (clamp(a.surface(), [p[0], p[1]]), clamp(b.surface(), [q[0], q[1]]));
-            let feet = [
-                a.closest(x, Some(uv), &options, &mut workspace, None),
-                b.closest(x, Some(st), &options, &mut workspace, None),
-            ];
-            for k in 0..2 {
-                out.distance[k] = out.distance[k].max(feet[k].distance);
-            }
-            let on = [a.surface().evaluate(uv[0], uv[1]), b.surface().evaluate(st[0], st[1])];
-            let apart = on.iter().fold(0.0f64, |m, &y| m.max(norm(sub(x, y))));
-            out.error = out.error.max(apart).max(feet[0].distance).max(feet[1].distance);
-        }
-    }
 }

@@ -8,8 +8,8 @@
 use super::contact::{in_tangent_plane, second};
 use super::correct::{Corrector, correct};
 use super::join::distance_to_chord;
+use super::shape::Shape;
 use crate::bounds::{Vector, cross, dot, norm, scaled, sub};
-use crate::surface::Surface;
 
 /// Most points of one walk.
 const MOST_POINTS: usize = 100_000;
@@ -36,7 +36,7 @@ pub struct Walk {
 }
 
 /// Unit direction of the intersection, and the step of the parameters per length; `None` where the planes are parallel.
-fn direction(a: &Surface, b: &Surface, at: [f64; 4]) -> Option<(Vector, [f64; 4])> {
+fn direction(a: &dyn Shape, b: &dyn Shape, at: [f64; 4]) -> Option<(Vector, [f64; 4])> {
     let (p, q) = (second(a, [at[0], at[1]]), second(b, [at[2], at[3]]));
     let (n, m) = (cross(p[1], p[2]), cross(q[1], q[2]));
     let along = cross(n, m);
@@ -51,8 +51,8 @@ fn direction(a: &Surface, b: &Surface, at: [f64; 4]) -> Option<(Vector, [f64; 4]
 
 /// Walks from a point of the intersection near `start` until both ends are known. `first` is the first step, `chord` the tolerance.
 pub fn follow(
-    a: &Surface,
-    b: &Surface,
+    a: &dyn Shape,
+    b: &dyn Shape,
     start: [f64; 4],
     corrector: Corrector,
     first: f64,
@@ -74,8 +74,8 @@ pub fn follow(
 }
 
 fn one_way(
-    a: &Surface,
-    b: &Surface,
+    a: &dyn Shape,
+    b: &dyn Shape,
     begin: [f64; 4],
     sign: f64,
     corrector: Corrector,

@@ -5,15 +5,18 @@
 //!   arc 2              x---------x     never by nearness alone; at a knot line both sides are asked
 //! ```
 //!
-//! Points between are solutions on the same arc, so a refinement cannot jump to another branch.
+//! Points between are solutions on the same arc, so a refinement cannot jump to another branch, and the bounds of the arc say how far
+//! it may leave their chords.
 
-use super::pair::{Arc, meeting};
+use super::arc::Arc;
+use super::pieces::Pieces;
 use super::search::Search;
+use super::system::meeting;
 use crate::bounds::{Vector, dot, norm, scaled, sub};
 use std::collections::HashMap;
 
-/// Most halvings between two points of an arc.
-const MOST_HALVINGS: u32 = 14;
+/// Most chords between two ends of an arc.
+const MOST_CHORDS: f64 = 4096.0;
 
 /// A place on both surfaces: position in the frame of the search, and u, v, s, t.
 #[derive(Clone, Copy, Debug)]
@@ -41,6 +44,12 @@ pub struct Chain {
     pub places: Vec<Place>,
     /// How it ends, at its beginning and at its end.
     pub stops: [Stop; 2],
+    /// How far it may leave the chord of two places, proven.
+    pub chord: f64,
+    /// How far its parameters may leave theirs, proven.
+    pub bulge: [f64; 4],
+    /// For each chord the parameter over which it is a graph; 5 where it passes a seam.
+    pub held: Vec<u8>,
 }
 
 /// A piece of an arc that a chain runs over, in order.
@@ -52,13 +61,6 @@ struct Step {
     jump: bool,
 }
 
-/// A solution: unit parameters and place.
-#[derive(Clone, Copy)]
-struct Solution {
-    z: [f64; 4],
-    place: Place,
-}
-
 /// Arcs by the patches that they belong to.
 pub struct Joiner<'a, 'b> {
     search: &'a Search<'b>,
@@ -68,6 +70,7 @@ pub struct Joiner<'a, 'b> {
     visited: Vec<u32>,
     walks: u32,
     closed: [bool; 4],
+    collapsed: [bool; 8],
     domain: [f64; 8],
     chord: f64,
 }
@@ -88,6 +91,9 @@ impl<'a, 'b> Joiner<'a, 'b> {
             visited: vec![0; search.found.len()],
             walks: 0,
             closed: [a.is_closed_u(), a.is_closed_v(), b.is_closed_u(), b.is_closed_v()],
+            collapsed: std::array::from_fn(|k| {
+                [a.collapsed_edges(), b.collapsed_edges()][k / 4][k % 4]
+            }),
             domain: [da[0], da[1], da[2], da[3], db[0], db[1], db[2], db[3]],
             chord,
         }
@@ -119,13 +125,11 @@ impl<'a, 'b> Joiner<'a, 'b> {
     }
 
     fn place(&self, arc: &Arc, x: f64) -> Place {
-        self.solution(arc, arc.solve(&self.search.a, &self.search.b, x)).place
+        self.solution(arc, arc.solve(&self.search.a, &self.search.b, x))
     }
 
-    fn solution(&self, arc: &Arc, z: [f64; 4]) -> Solution {
-        let place =
-            Place { x: meeting(&self.search.a, arc.patches, z), at: self.global(arc.patches, z) };
-        Solution { z, place }
+    fn solution(&self, arc: &Arc, z: [f64; 4]) -> Place {
+        Place { x: meeting(&self.search.a, arc.patches, z), at: self.global(arc.patches, z) }
     }
 
     fn global(&self, patches: [u32; 2], z: [f64; 4]) -> [f64; 4] {
@@ -140,9 +144,11 @@ impl<'a, 'b> Joiner<'a, 'b> {
     /// Arcs that a place lies on, with its position there.
     fn on(&self, at: [f64; 4]) -> Vec<(usize, f64)> {
         let (mut found, (a, b)) = (Vec::new(), (&self.search.a, &self.search.b));
-        for pa in a.patches_at([at[0], at[1]]) {
+        let room = self.room(at);
+        let theirs = b.patches_at([at[2], at[3]], [room[2], room[3]]);
+        for pa in a.patches_at([at[0], at[1]], [room[0], room[1]]) {
             let uv = a.local(pa, [at[0], at[1]]);
-            for pb in b.patches_at([at[2], at[3]]) {
+            for &pb in &theirs {
                 let Some(arcs) = self.by_patches.get(&[pa, pb]) else { continue };
                 let st = b.local(pb, [at[2], at[3]]);
                 for &k in arcs {
@@ -154,6 +160,17 @@ impl<'a, 'b> Joiner<'a, 'b> {
             }
         }
         found
+    }
+
+    /// How far rounding may move the parameters of a place, as shares of the patches: much beside a collapsed edge.
+    fn room(&self, at: [f64; 4]) -> [f64; 4] {
+        let of = |pieces: &Pieces, at: [f64; 2]| {
+            let Some(&patch) = pieces.patches_at(at, [1e-9; 2]).first() else { return [1e-9; 2] };
+            let [_, du, dv] = pieces.jet(patch, pieces.local(patch, at));
+            [du, dv].map(|d| (self.search.floor / norm(d).max(1e-300)).clamp(1e-9, 1e-2))
+        };
+        let (a, b) = (of(&self.search.a, [at[0], at[1]]), of(&self.search.b, [at[2], at[3]]));
+        [a[0], a[1], b[0], b[1]]
     }
 
     fn is_covered(&self, k: usize, x: f64) -> bool {
@@ -169,9 +186,13 @@ impl<'a, 'b> Joiner<'a, 'b> {
     /// The same place on the other side of the seams that it lies on.
     fn mirrored(&self, at: [f64; 4]) -> Vec<[f64; 4]> {
         let mut all = vec![at];
+        if self.closed == [false; 4] {
+            return Vec::new();
+        }
+        let room = self.room(at);
         for q in (0..4).filter(|&q| self.closed[q]) {
             let [low, high] = [self.domain[2 * q], self.domain[2 * q + 1]];
-            let near = 1e-9 * (high - low);
+            let near = room[q] * (high - low);
             let other = if at[q] - low <= near {
                 Some(high)
             } else {
@@ -196,7 +217,7 @@ impl<'a, 'b> Joiner<'a, 'b> {
     fn chain(&mut self, start: usize, middle: f64) -> Chain {
         let (ahead, end) = self.walk(start, middle, true);
         if end == Stop::Closed {
-            return Chain { places: self.places(&ahead), stops: [end; 2] };
+            return self.made(&ahead, [end; 2]);
         }
         let (behind, first) = self.walk(start, middle, false);
         let mut steps: Vec<Step> = Vec::with_capacity(ahead.len() + behind.len());
@@ -206,7 +227,7 @@ impl<'a, 'b> Joiner<'a, 'b> {
             jump = step.jump;
         }
         steps.extend(ahead);
-        Chain { places: self.places(&steps), stops: [first, end] }
+        self.made(&steps, [first, end])
     }
 
     fn walk(&mut self, start: usize, x0: f64, forward: bool) -> (Vec<Step>, Stop) {
@@ -279,9 +300,11 @@ impl<'a, 'b> Joiner<'a, 'b> {
     }
 
     fn stop(&self, side: Option<usize>, at: [f64; 4]) -> Stop {
+        // A collapsed edge is a point, and no border.
         let is_border = |side: usize| {
             let (q, end) = (side / 2, self.domain[side]);
-            (at[q] - end).abs() <= 1e-9 * (self.domain[2 * q + 1] - self.domain[2 * q])
+            !self.collapsed[side]
+                && (at[q] - end).abs() <= 1e-9 * (self.domain[2 * q + 1] - self.domain[2 * q])
         };
         match side {
             Some(side) if is_border(side) => Stop::Border(side),
@@ -289,55 +312,36 @@ impl<'a, 'b> Joiner<'a, 'b> {
         }
     }
 
-    fn places(&self, steps: &[Step]) -> Vec<Place> {
-        let mut places: Vec<Place> = Vec::new();
+    /// Places along the steps, as many as the chord tolerance asks by the bounds of the arcs.
+    fn made(&self, steps: &[Step], stops: [Stop; 2]) -> Chain {
+        let (mut places, mut held) = (Vec::<Place>::new(), Vec::new());
+        let (mut chord, mut bulge) = (0.0f64, [0.0f64; 4]);
         let (a, b) = (&self.search.a, &self.search.b);
         for (n, step) in steps.iter().enumerate() {
             let arc = &self.search.found[step.arc].arc;
-            let first = self.solution(arc, arc.solve(a, b, step.from));
+            let at = |x: f64| self.solution(arc, arc.solve(a, b, x));
             if n == 0 || step.jump {
-                places.push(first.place);
+                places.push(at(step.from));
+                if n > 0 {
+                    held.push(super::Branch::JUMP);
+                }
             }
             if (step.to - step.from).abs() < 1e-12 {
                 continue;
             }
-            let last = self.solution(arc, arc.solve(a, b, step.to));
-            self.fill(arc, (step.from, first), (step.to, last), 0, &mut places);
-            places.push(last.place);
+            let whole = arc.bulge(step.from, step.to, 1).0;
+            let parts = (whole / (0.999 * self.chord)).sqrt().ceil().clamp(1.0, MOST_CHORDS);
+            let (far, aside) = arc.bulge(step.from, step.to, parts as usize);
+            chord = chord.max(far);
+            let widths = [a.width(arc.patches[0]), b.width(arc.patches[1])];
+            bulge = [0, 1, 2, 3].map(|q| bulge[q].max(aside[q] * widths[q / 2][q % 2]));
+            for k in 1..parts as usize {
+                places.push(at(step.from + k as f64 / parts * (step.to - step.from)));
+            }
+            places.push(at(step.to));
+            held.resize(places.len() - 1, arc.k as u8);
         }
-        places
-    }
-
-    /// Places between two of an arc, until chords are near enough.
-    fn fill(
-        &self,
-        arc: &Arc,
-        from: (f64, Solution),
-        to: (f64, Solution),
-        depth: u32,
-        out: &mut Vec<Place>,
-    ) {
-        let at = |share: f64| from.0 + share * (to.0 - from.0);
-        let solve = |share: f64| {
-            let z = arc.between(&self.search.a, &self.search.b, at(share), [from.1.z, to.1.z]);
-            self.solution(arc, z)
-        };
-        let near = |found: &Solution| {
-            distance_to_chord(found.place.x, from.1.place.x, to.1.place.x) <= 0.5 * self.chord
-        };
-        // An arc turns by less than a right angle: one that is shorter than twice the tolerance cannot leave its chord by more.
-        if norm(sub(to.1.place.x, from.1.place.x)) <= self.chord {
-            return;
-        }
-        let middle = solve(0.5);
-        if depth >= MOST_HALVINGS
-            || (near(&middle) && [0.25, 0.75].iter().all(|&s| near(&solve(s))))
-        {
-            return;
-        }
-        self.fill(arc, from, (at(0.5), middle), depth + 1, out);
-        out.push(middle.place);
-        self.fill(arc, (at(0.5), middle), to, depth + 1, out);
+        Chain { places, stops, chord, bulge, held }
     }
 }
 

@@ -2,22 +2,18 @@
 //!
 //! ```text
 //!   patch ── halved along the direction that bends more ── part ── part ...        kept, so that partners share them
-//!   part: box and poles on [0, 1]^2        slopes on [-1/4, 5/4]^2, the reach of a graph that is proven (`pair`)
+//!   part: box and poles on [0, 1]^2        bends on [-1/4, 5/4]^2, the reach of a graph that is proven (`pair`)
 //! ```
 //!
 //! A part's own parameters run over [-1, 1]: slopes are lengths per half width. Rounding is counted beforehand: positions are off by
-//! at most [`Pieces::error`], slopes by `Slopes::error`.
+//! at most [`Pieces::error`], second derivatives by what [`Bends::spread`] holds.
 
+use super::bends::{Bends, Pole, REACH, bends};
 use crate::bezier::extraction;
 use crate::bounds::{Aabb, HALF_ULP, Vector, add, cross, norm, scaled, sub};
 use crate::knots::Knots;
 use crate::surface::Surface;
 use std::cell::OnceCell;
-
-/// How far the reach of a part goes beyond it on each side, as a share of its width.
-const BEYOND: f64 = 0.25;
-
-type Pole = [f64; 4];
 
 /// One Bezier patch.
 pub struct Patch {
@@ -28,22 +24,12 @@ pub struct Patch {
     /// Homogeneous poles around `center`.
     poles: Box<[Pole]>,
     center: Vector,
+    /// Its first corner and its slopes, when it is an affine map up to rounding.
+    affine: Option<[Vector; 3]>,
     /// Its whole as a part.
     pub root: u32,
     /// Which of its sides u low, u high, v low, v high are one point.
     pub collapsed: [bool; 4],
-}
-
-/// First derivatives over the reach of a part: hulls of numerators, and what a weight adds.
-pub struct Slopes {
-    /// Vectors whose hull holds the numerator of the slope along each parameter.
-    pub hull: [Box<[Vector]>; 2],
-    /// Least and greatest weight, where the middle has 1.
-    pub weight: [f64; 2],
-    /// What the weight's own slope may add to each coordinate, along each parameter.
-    pub added: [Vector; 2],
-    /// How far rounding may move a slope.
-    pub error: f64,
 }
 
 /// A part of a patch.
@@ -73,12 +59,14 @@ pub struct Part {
     degree: [usize; 2],
     rational: bool,
     radius: f64,
+    /// In the middle.
+    weight: f64,
     halves: Option<[u32; 2]>,
 }
 
-/// What is known of the slopes of a part, made when a test asks for it: most parts are told apart by their hulls.
+/// How a part bends, found when a test asks for it: most parts are told apart by their hulls.
 struct Bounds {
-    slopes: Option<Slopes>,
+    bends: Option<Bends>,
     bend: f64,
 }
 
@@ -137,6 +125,7 @@ impl Pieces {
                 pieces.patches.push(Patch {
                     u: *u,
                     v: *v,
+                    affine: affine(&poles, degree, pieces.rational, 0.25 * pieces.error),
                     poles: poles.clone(),
                     center,
                     root,
@@ -157,8 +146,11 @@ impl Pieces {
         poles: Box<[Pole]>,
         c: Vector,
     ) -> Part {
-        let hull: Box<[Vector]> =
-            poles.iter().map(|p| add(c, [p[0] / p[3], p[1] / p[3], p[2] / p[3]])).collect();
+        let hull: Box<[Vector]> = if self.rational {
+            poles.iter().map(|p| add(c, [p[0] / p[3], p[1] / p[3], p[2] / p[3]])).collect()
+        } else {
+            poles.iter().map(|p| add(c, [p[0], p[1], p[2]])).collect()
+        };
         let mut aabb = Aabb::EMPTY;
         hull.iter().for_each(|&p| aabb.include(p));
         let [p, pu, pv] = homogeneous(&poles, self.degree, [0.5; 2]);
@@ -167,7 +159,7 @@ impl Pieces {
         let normal = cross(slope[0], slope[1]);
         let length = norm(normal);
         let flat = length <= 1e-14 * norm(slope[0]) * norm(slope[1]) || length == 0.0;
-        let radius = poles.iter().fold(0.0f64, |m, q| m.max(norm([q[0], q[1], q[2]]) / q[3]));
+        let radius = norm([0, 1, 2].map(|k| (aabb.high[k] - c[k]).max(c[k] - aabb.low[k])));
         let on = [low[0] == 0.0, high[0] == 1.0, low[1] == 0.0, high[1] == 1.0];
         let pole = (0..4).find(|&k| on[k] && self.patches[patch as usize].collapsed[k]);
         Part {
@@ -184,6 +176,7 @@ impl Pieces {
             degree: self.degree,
             rational: self.rational,
             radius,
+            weight: p[3],
             halves: None,
             center: c,
             poles,
@@ -229,10 +222,20 @@ impl Pieces {
     /// Point and slopes of a patch at unit parameters, a little outside too.
     pub fn jet(&self, patch: u32, at: [f64; 2]) -> [Vector; 3] {
         let patch = &self.patches[patch as usize];
+        if let Some([o, du, dv]) = patch.affine {
+            let x = add(scaled(du, at[0]), scaled(dv, at[1]));
+            return [add(patch.center, add(o, x)), du, dv];
+        }
         let [p, pu, pv] = homogeneous(&patch.poles, self.degree, at);
         let x = [0, 1, 2].map(|k| p[k] / p[3]);
         let slope = |d: Pole| [0, 1, 2].map(|k| (d[k] - x[k] * d[3]) / p[3]);
         [add(patch.center, x), slope(pu), slope(pv)]
+    }
+
+    /// Widths of a patch in the caller's parameters.
+    pub fn width(&self, patch: u32) -> [f64; 2] {
+        let patch = &self.patches[patch as usize];
+        [patch.u[1] - patch.u[0], patch.v[1] - patch.v[0]]
     }
 
     /// The caller's parameters of a place in a patch.
@@ -253,22 +256,21 @@ impl Pieces {
         [on(patch.u, at[0]), on(patch.v, at[1])]
     }
 
-    /// The patches that hold a place, those beside a knot line both.
-    pub fn patches_at(&self, at: [f64; 2]) -> Vec<u32> {
-        let near = |[a, b]: [f64; 2], u: f64| {
-            let slack = 1e-9 * (b - a);
+    /// The patches that hold a place, those beside a knot line both; `room`: how near that is, as shares of a patch.
+    pub fn patches_at(&self, at: [f64; 2], room: [f64; 2]) -> Vec<u32> {
+        let near = |[a, b]: [f64; 2], u: f64, room: f64| {
+            let slack = room * (b - a);
             a - slack <= u && u <= b + slack
         };
-        let rows = self.patches.len() / self.columns;
         let mut found = Vec::new();
-        for a in 0..rows {
-            if near(self.patches[a * self.columns].u, at[0]) {
-                let row = a * self.columns;
-                found.extend(
-                    (row..row + self.columns)
-                        .filter(|&k| near(self.patches[k].v, at[1]))
-                        .map(|k| k as u32),
-                );
+        let beside = |k: usize| {
+            (k..k + self.columns)
+                .filter(|&k| near(self.patches[k].v, at[1], room[1]))
+                .map(|k| k as u32)
+        };
+        for row in (0..self.patches.len()).step_by(self.columns) {
+            if near(self.patches[row].u, at[0], room[0]) {
+                found.extend(beside(row));
             }
         }
         found
@@ -276,32 +278,17 @@ impl Pieces {
 }
 
 impl Part {
-    /// Which parameter to halve: the one along which second differences are greater; the longer one where nothing bends.
+    /// Which parameter to halve: the one along which it bends more; the longer one where nothing bends.
     fn direction(&self) -> u8 {
         // Toward a collapsed edge parts get shorter, not narrower.
         if let Some(side) = self.pole {
             return side as u8 / 2;
         }
-        let (poles, low, high, slope) = (&self.poles, self.low, self.high, self.slope.map(norm));
-        let (width, mut second) = (self.degree[1] + 1, [0.0f64; 2]);
-        let difference = |a: Pole, b: Pole, c: Pole| {
-            let at = |k: usize| a[k] / a[3] - 2.0 * b[k] / b[3] + c[k] / c[3];
-            norm([at(0), at(1), at(2)])
+        let (low, high, slope) = (self.low, self.high, self.slope.map(norm));
+        let second = match self.bends() {
+            Some(bends) => [bends.size[0], bends.size[2]],
+            None => slope,
         };
-        let factor = |n: usize| (n * n.max(2)) as f64;
-        for i in 0..=self.degree[0] {
-            for j in 0..width {
-                let at = i * width + j;
-                if i >= 2 {
-                    let d = difference(poles[at - 2 * width], poles[at - width], poles[at]);
-                    second[0] = second[0].max(d * factor(self.degree[0]));
-                }
-                if j >= 2 {
-                    let d = difference(poles[at - 2], poles[at - 1], poles[at]);
-                    second[1] = second[1].max(d * factor(self.degree[1]));
-                }
-            }
-        }
         let length = slope[0] + slope[1];
         let share = [0, 1].map(|k| high[k] - low[k]);
         // A part that is much longer one way than the other in its patch serves no test.
@@ -318,80 +305,45 @@ impl Part {
         }
     }
 
-    /// Slopes over the reach; `None` where a weight is not positive there.
-    pub fn slopes(&self) -> Option<&Slopes> {
-        self.bounds().slopes.as_ref()
+    /// Second derivatives over the reach; `None` where a weight is not positive there.
+    pub fn bends(&self) -> Option<&Bends> {
+        self.bounds().bends.as_ref()
     }
 
-    /// How far slopes differ from the middle one, in length.
+    /// How far slopes over the reach may differ from those in the middle, in length.
     pub fn bend(&self) -> f64 {
         self.bounds().bend
     }
 
     fn bounds(&self) -> &Bounds {
         self.bounds.get_or_init(|| {
-            let slopes = self.bounded_slopes();
-            let mut bend = f64::INFINITY;
-            if let Some(slopes) = &slopes {
-                let far = |k: usize| {
-                    let hull = slopes.hull[k].iter();
-                    hull.fold(0.0f64, |m, &v| m.max(norm(sub(v, self.slope[k]))))
-                        + norm(slopes.added[k])
-                };
-                let size = norm(self.slope[0]) + norm(self.slope[1]);
-                bend = far(0) + far(1) + (slopes.weight[1] - slopes.weight[0]) * size;
-            }
-            Bounds { slopes, bend }
+            let bends = self.bounded();
+            let bend = bends.as_ref().map_or(f64::INFINITY, |bends| {
+                REACH * (bends.size[0] + 2.0 * bends.size[1] + bends.size[2])
+            });
+            Bounds { bends, bend }
         })
     }
 
-    fn bounded_slopes(&self) -> Option<Slopes> {
-        let (degree, width, radius) = (self.degree, self.degree[1] + 1, self.radius);
-        let [p, _, _] = homogeneous(&self.poles, degree, [0.5; 2]);
-        let (w, middle) = (p[3], [0, 1, 2].map(|k| p[k] / p[3]));
-        let mut net: Vec<Pole> = self
-            .poles
-            .iter()
-            .map(|q| {
-                let x = |k: usize| (q[k] - middle[k] * q[3]) / w;
-                [x(0), x(1), x(2), q[3] / w]
-            })
-            .collect();
-        stretch(&mut net, degree);
-        let mut weight = [1.0f64; 2];
-        let mut reach = [0.0f64; 3];
-        for q in &net {
-            weight = [weight[0].min(q[3]), weight[1].max(q[3])];
-            if q[3] <= 0.05 {
-                return None;
-            }
-            for k in 0..3 {
-                reach[k] = reach[k].max((q[k] / q[3]).abs());
-            }
-        }
-        // The reach is one and a half times as wide, and a part's own parameters run over two units.
-        let per = |n: usize| n as f64 / (2.0 * (1.0 + 2.0 * BEYOND));
-        let mut weight_slope = [0.0f64; 2];
-        let mut differences = |k: usize, step: usize| -> Box<[Vector]> {
-            let inside =
-                |at: &usize| if k == 0 { at + step < net.len() } else { at % width + 1 < width };
-            (0..net.len())
-                .filter(inside)
-                .map(|at| {
-                    let d = |c: usize| per(degree[k]) * (net[at + step][c] - net[at][c]);
-                    weight_slope[k] = weight_slope[k].max(d(3).abs());
-                    [d(0), d(1), d(2)]
-                })
-                .collect()
+    fn bounded(&self) -> Option<Bends> {
+        let mut few = [[0.0; 4]; 16];
+        let mut many = Vec::new();
+        let count = self.poles.len();
+        let net: &mut [Pole] = if count <= few.len() {
+            &mut few[..count]
+        } else {
+            many.resize(count, [0.0; 4]);
+            &mut many
         };
-        let hull = [differences(0, width), differences(1, 1)];
-        let added = weight_slope
-            .map(|s| if self.rational { scaled(reach, s / weight[0]) } else { [0.0; 3] });
-        if !self.rational {
-            weight = [1.0; 2];
+        // Around the point in the middle, where the weight is made one.
+        let (middle, over) = (sub(self.at, self.center), 1.0 / self.weight);
+        for (to, q) in net.iter_mut().zip(&self.poles) {
+            for k in 0..3 {
+                to[k] = (q[k] - middle[k] * q[3]) * over;
+            }
+            to[3] = q[3] * over;
         }
-        let growth = 2.1f64.powi((degree[0] + degree[1]) as i32) * 32.0 * HALF_ULP;
-        Some(Slopes { hull, weight, added, error: growth * (radius + norm(reach)) })
+        bends(net, self.degree, self.rational, self.radius)
     }
 }
 
@@ -437,13 +389,51 @@ fn local_poles(
     (poles.into(), center)
 }
 
-/// Homogeneous point and derivatives by the unit parameters.
+/// First corner and slopes of a net that is an affine map but for `error`.
+fn affine(poles: &[Pole], [p, q]: [usize; 2], rational: bool, error: f64) -> Option<[Vector; 3]> {
+    let of = |k: usize| [poles[k][0], poles[k][1], poles[k][2]];
+    let (o, u, v) = (of(0), of(p * (q + 1)), of(q));
+    let (du, dv) = (sub(u, o), sub(v, o));
+    let fits = |k: usize| {
+        let (i, j) = ((k / (q + 1)) as f64 / p as f64, (k % (q + 1)) as f64 / q as f64);
+        let off = sub(of(k), add(o, add(scaled(du, i), scaled(dv, j))));
+        off.iter().all(|x| x.abs() <= error)
+    };
+    (!rational && (0..poles.len()).all(fits)).then_some([o, du, dv])
+}
+
+/// Homogeneous point and derivatives by the unit parameters. The usual degrees are literals, so that loops have fixed lengths.
 fn homogeneous(poles: &[Pole], degree: [usize; 2], at: [f64; 2]) -> [Pole; 3] {
-    if degree[0].max(degree[1]) < 4 {
-        summed::<4>(poles, degree, at)
-    } else {
-        summed::<32>(poles, degree, at)
+    match degree {
+        [3, 3] => fixed::<4, 4>(poles, at),
+        [2, 2] => fixed::<3, 3>(poles, at),
+        [2, 1] => fixed::<3, 2>(poles, at),
+        [1, 1] => fixed::<2, 2>(poles, at),
+        [0..=3, 0..=3] => summed::<4>(poles, degree, at),
+        _ => summed::<32>(poles, degree, at),
     }
+}
+
+/// The same for N x M poles.
+fn fixed<const N: usize, const M: usize>(poles: &[Pole], at: [f64; 2]) -> [Pole; 3] {
+    let ([b, db], [c, dc]) = (bernstein_of::<N>(at[0]), bernstein_of::<M>(at[1]));
+    let mut sum = [[0.0; 4]; 3];
+    let (rows, _) = poles.as_chunks::<M>();
+    for (row, (b, db)) in rows.iter().zip(b.into_iter().zip(db)) {
+        let (mut x, mut dx) = ([0.0; 4], [0.0; 4]);
+        for j in 0..M {
+            for k in 0..4 {
+                x[k] += c[j] * row[j][k];
+                dx[k] += dc[j] * row[j][k];
+            }
+        }
+        for k in 0..4 {
+            sum[0][k] += b * x[k];
+            sum[1][k] += db * x[k];
+            sum[2][k] += b * dx[k];
+        }
+    }
+    sum
 }
 
 fn summed<const LEN: usize>(poles: &[Pole], degree: [usize; 2], at: [f64; 2]) -> [Pole; 3] {
@@ -467,7 +457,21 @@ fn summed<const LEN: usize>(poles: &[Pole], degree: [usize; 2], at: [f64; 2]) ->
     sum
 }
 
+/// Bernstein basis of degree N - 1 and its derivative.
+#[inline(always)]
+fn bernstein_of<const N: usize>(s: f64) -> [[f64; N]; 2] {
+    if N != 4 {
+        return bernstein::<N>(N - 1, s);
+    }
+    let (mut values, mut slopes, r) = ([0.0; N], [0.0; N], 1.0 - s);
+    let (rr, rs, ss) = (r * r, r * s, s * s);
+    values.copy_from_slice(&[r * rr, 3.0 * s * rr, 3.0 * r * ss, s * ss]);
+    slopes.copy_from_slice(&[-3.0 * rr, 3.0 * rr - 6.0 * rs, 6.0 * rs - 3.0 * ss, 3.0 * ss]);
+    [values, slopes]
+}
+
 /// Bernstein basis of degree `n` and its derivative.
+#[inline(always)]
 fn bernstein<const LEN: usize>(n: usize, s: f64) -> [[f64; LEN]; 2] {
     let (mut values, mut slopes) = ([0.0; LEN], [0.0; LEN]);
     values[0] = 1.0;
@@ -490,6 +494,15 @@ fn bernstein<const LEN: usize>(n: usize, s: f64) -> [[f64; LEN]; 2] {
 
 /// Splits a net at the middle of a direction.
 fn halve(low: &mut [Pole], high: &mut [Pole], degree: [usize; 2], direction: usize) {
+    match (degree, direction) {
+        ([3, 3], 0) => halve_along(low, high, [3, 3], 0),
+        ([3, 3], _) => halve_along(low, high, [3, 3], 1),
+        _ => halve_along(low, high, degree, direction),
+    }
+}
+
+#[inline(always)]
+fn halve_along(low: &mut [Pole], high: &mut [Pole], degree: [usize; 2], direction: usize) {
     let width = degree[1] + 1;
     let (n, step, lines) =
         if direction == 0 { (degree[0], width, width) } else { (degree[1], 1, degree[0] + 1) };
@@ -504,32 +517,5 @@ fn halve(low: &mut [Pole], high: &mut [Pole], degree: [usize; 2], direction: usi
             }
         }
         high[at(0)] = low[at(n)];
-    }
-}
-
-/// Replaces a net on [0, 1]^2 by that on the reach.
-fn stretch(net: &mut [Pole], degree: [usize; 2]) {
-    let width = degree[1] + 1;
-    let (end, start) = (1.0 + BEYOND, -BEYOND / (1.0 + BEYOND));
-    for direction in 0..2 {
-        let n = degree[direction];
-        let lines = if direction == 0 { width } else { degree[0] + 1 };
-        for line in 0..lines {
-            let at = |k: usize| if direction == 0 { line + k * width } else { line * width + k };
-            for level in 1..=n {
-                for k in (level..=n).rev() {
-                    for c in 0..4 {
-                        net[at(k)][c] = (1.0 - end) * net[at(k - 1)][c] + end * net[at(k)][c];
-                    }
-                }
-            }
-            for level in 1..=n {
-                for k in 0..=n - level {
-                    for c in 0..4 {
-                        net[at(k)][c] = (1.0 - start) * net[at(k)][c] + start * net[at(k + 1)][c];
-                    }
-                }
-            }
-        }
     }
 }

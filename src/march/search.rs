@@ -10,8 +10,9 @@
 //! Level by level, so that a budget that runs out leaves boxes of equal size. Cost: linear in the length of the curves; a touching
 //! point takes a constant number of pairs a level.
 
+use super::arc::{Arc, Clip};
 use super::contact::{into_domain, look, settle};
-use super::pair::{Arc, Clip, Verdict, judge};
+use super::pair::{Verdict, judge};
 use super::pieces::{Part, Pieces};
 use crate::bounds::{Aabb, HALF_ULP, Vector, cross, dot, norm, sub};
 use crate::error::Error;
@@ -22,6 +23,9 @@ const LEVEL_OF_CURVES: u32 = 12;
 
 /// Halvings of a pair after which coincidence is looked for.
 const LEVEL_OF_AREAS: u32 = 8;
+
+/// A relative curvature beyond this share of the greatest one is none by rounding, nor by what changes within a small part.
+const BENDS_APART: f64 = 0.02;
 
 /// Pairs between two looks at whether to stop.
 const GROUP: u64 = 256;
@@ -171,7 +175,7 @@ impl<'a> Search<'a> {
         self.judged += 1;
         let (a, b) = (&self.a.parts[i as usize], &self.b.parts[j as usize]);
         let by_size = size(a) >= size(b);
-        let halve_first = match judge(a, b, self.error) {
+        let halve_first = match judge([&self.a, &self.b], [a, b], self.error) {
             Verdict::Empty => return,
             Verdict::Arc(arc) => match self.keep(*arc, [i, j]) {
                 true => return,
@@ -267,6 +271,13 @@ impl<'a> Search<'a> {
 
     /// Whether the surfaces touch in this pair along a curve, or coincide, to the last digits.
     fn touching(&self, a: &Part, b: &Part, level: u32) -> Option<Open> {
+        let [u, v, s, t] = self.middle(a, b);
+        // Where they bend apart both ways they touch in a point at most.
+        if let Some((here, _)) = look(self.surfaces[0], self.surfaces[1], [u, v], [s, t])
+            && here.curvature[1].abs() > BENDS_APART * here.greatest
+        {
+            return None;
+        }
         if self.coincide(a, b) {
             return Some(Open::Area);
         }

@@ -9,8 +9,9 @@
 //! Points are as good as the triangles; `correct` makes points of the surfaces of them. What is smaller than a triangle is lost: that is
 //! what the certified search is for. Reference: Moeller, *A fast triangle-triangle intersection test*, 1997 (intervals on the line).
 
-use super::pair::{Verdict, judge};
+use super::pair::misses;
 use super::pieces::{Part, Pieces};
+use super::shape::Shape;
 use crate::bounds::{Aabb, Vector, add, cross, dot, norm, scaled, sub};
 use crate::surface::Surface;
 use std::collections::HashMap;
@@ -157,7 +158,7 @@ pub fn subdivided(
     while let Some((i, j, di, dj)) = waiting.pop() {
         looked += 1;
         let (x, y) = (&p.parts[i as usize], &q.parts[j as usize]);
-        if matches!(judge(x, y, error), Verdict::Empty) {
+        if misses(x, y, error) {
             continue;
         }
         let done = |part: &Part, d: u32| match flat {
@@ -189,8 +190,8 @@ fn flat_part(pieces: &Pieces, part: &Part) -> [Triangle; 2] {
 }
 
 /// Tessellation of both surfaces by grids of `cells` x `cells` cells over their domains.
-pub fn meshed(a: &Surface, b: &Surface, cells: usize) -> Vec<Polyline> {
-    let grid = |surface: &Surface| {
+pub fn meshed(a: &dyn Shape, b: &dyn Shape, cells: usize) -> Vec<Polyline> {
+    let grid = |surface: &dyn Shape| {
         let [u0, u1, v0, v1] = surface.domain();
         let at = |i: usize, j: usize| {
             let share = |k: usize, [x, y]: [f64; 2]| {

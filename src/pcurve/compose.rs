@@ -28,6 +28,9 @@ use crate::surface::Surface;
 /// Half ulps of the largest parameter by which a piece may lie beyond a knot line and still count as inside.
 const SLACK: f64 = 64.0;
 
+/// Poles beyond the domain by no more than this share of it are rounding, or the tolerance of a file.
+const BEYOND: f64 = 1e-6;
+
 /// Most pieces of one curve; a curve that wriggles along a knot line is refused before it takes all memory.
 const MOST_PIECES: usize = 100_000;
 
@@ -202,6 +205,45 @@ impl<'a> Composer<'a> {
     /// The surface.
     pub fn surface(&self) -> &'a Surface {
         self.surface
+    }
+
+    /// The curve with poles that lie beyond the domain by no more than 1e-6 of it moved to its border, and how far u and v of
+    /// it may have moved.
+    ///
+    /// # Errors
+    /// Memory that could not be had.
+    pub fn brought_inside(&self, pcurve: &Curve) -> Result<(Curve, [f64; 2]), Error> {
+        let mut moved = [0.0f64; 2];
+        let ends = self.knots().map(Knots::domain);
+        let mut poles = pcurve.poles().to_vec();
+        for pole in &mut poles {
+            for (k, (low, high)) in ends.into_iter().enumerate() {
+                let off = (low - pole[k]).max(pole[k] - high);
+                if 0.0 < off && off <= BEYOND * (high - low) {
+                    pole[k] = pole[k].clamp(low, high);
+                    moved[k] = moved[k].max(off);
+                }
+            }
+        }
+        if moved == [0.0; 2] {
+            return Ok((pcurve.clone(), moved));
+        }
+        let inside =
+            Curve::new(pcurve.knots().values(), pcurve.degree(), &poles, pcurve.weights())?;
+        Ok((inside, moved))
+    }
+
+    /// Bounds of |Su| and |Sv| over the domain.
+    pub fn speeds(&mut self) -> [f64; 2] {
+        let [us, vs] = self.knots().map(|knots| knots.spans().collect::<Vec<_>>());
+        let mut most = [0.0f64; 2];
+        for &u in &us {
+            for &v in &vs {
+                let speed = self.speed([u, v]);
+                most = [most[0].max(speed[0]), most[1].max(speed[1])];
+            }
+        }
+        most
     }
 
     /// Refuses a curve whose ends, or ends of spans, are outside of the domain.

@@ -6,8 +6,8 @@
 //!   halved where that says too little, until it agrees with the value at an end
 //! ```
 //!
-//! Both curves have the same parameter: what is measured is the distance at equal parameters, which is at least the
-//! distance between the two as point sets.
+//! The same for two images, `S(p(t)) - R(q(t))`, of curves in the domains of two surfaces. In all of them both have the same parameter:
+//! what is measured is the distance at equal parameters, which is at least the distance between the two as point sets.
 
 use super::compose::{Arc, Composer, Piece, arc, lowered, product, raised};
 use crate::bezier::{Bidegree, halve_t};
@@ -20,6 +20,9 @@ const SHARP: f64 = 1e-3;
 
 /// Most halvings of one request.
 const MOST_HALVINGS: usize = 4_000;
+
+/// Cuts of cuts: pieces of two images begin at knot lines, which are known to a few ulps.
+const MOST_CUTS: usize = 4;
 
 /// The greatest distance at equal parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,6 +95,24 @@ impl Gap {
         Self::new(piece.range, [x, y, z, w], error)
     }
 
+    /// Of two images over the same interval.
+    fn apart(first: &Piece, second: &Piece) -> Self {
+        let shift = sub(second.center, first.center);
+        let numerator = second.numerator.iter().zip(&second.weights);
+        let moved = numerator.map(|(n, w)| [0, 1, 2].map(|c| n[c] + w * shift[c]));
+        let (distance, size) = (norm(shift), norm(first.center).max(norm(second.center)));
+        let arc = Arc {
+            numerator: moved.collect(),
+            weights: second.weights.clone(),
+            radius: second.radius + distance,
+        };
+        let mut gap = Self::between(first, &arc);
+        let rounding = 4.0 * HALF_ULP * (size + second.radius + distance);
+        gap.error += second.error + rounding;
+        gap.bound += second.error + rounding;
+        gap
+    }
+
     /// The distance at an end.
     fn value(&self, last: bool) -> f64 {
         let [x, y, z, w] = &self.coefficients;
@@ -137,6 +158,37 @@ pub fn deviation(
             let arc = arc(curve, span, piece.range, piece.center);
             gaps.push(Gap::between(&piece, &arc));
         }
+    }
+    Ok(sharpened(gaps, enough))
+}
+
+/// The greatest distance between `S(p(t))` and `R(q(t))` on `range`, as [`deviation`].
+///
+/// # Errors
+/// As [`Composer::compose`]; [`Error::Unsupported`] where the pieces of both do not come to begin at common places.
+pub fn between_images(
+    first: (&mut Composer, &Curve),
+    second: (&mut Composer, &Curve),
+    range: [f64; 2],
+    enough: f64,
+) -> Result<Deviation, Error> {
+    let ((ours, p), (theirs, q)) = (first, second);
+    let mut gaps = Vec::new();
+    let mut waiting = vec![(range, 0)];
+    while let Some((range, cuts)) = waiting.pop() {
+        let (a, b) = (ours.compose(p, range)?, theirs.compose(q, range)?);
+        if let ([a], [b]) = (&a[..], &b[..]) {
+            gaps.push(Gap::apart(a, b));
+            continue;
+        }
+        if cuts == MOST_CUTS {
+            let text = format!("pcurve: knot lines of both surfaces are crossed at {:?}", range[0]);
+            return Err(Error::Unsupported(text));
+        }
+        let mut places: Vec<f64> = a.iter().chain(&b).flat_map(|piece| piece.range).collect();
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        waiting.extend(places.windows(2).map(|pair| ([pair[0], pair[1]], cuts + 1)));
     }
     Ok(sharpened(gaps, enough))
 }

@@ -16,7 +16,7 @@ use super::deviation::{Deviation, deviation};
 use super::{Direction, EllipseArc, Isoline, Pcurve, between, reversed_curve};
 use crate::bounds::{add, scaled};
 use crate::curve::Curve;
-use crate::elementary::part;
+use crate::elementary::{angle, part};
 use crate::error::Error;
 use crate::fit::{Adaptive, of_function};
 use crate::knots::MAX_DEGREE;
@@ -100,6 +100,26 @@ impl Pcurve {
     }
 }
 
+impl Pcurve {
+    /// The curve as a spline (u, v, 0) with the same parameter, and how far u and v of it may be off: an arc becomes a polynomial spline
+    /// of its angle, everything else is as [`Self::as_spline`] has it.
+    ///
+    /// # Errors
+    /// Memory that could not be had.
+    pub fn as_spline_in_parameter(&self) -> Result<(Curve, [f64; 2]), Error> {
+        let Self::Arc(arc) = self else { return Ok((self.as_spline()?, [0.0; 2])) };
+        let (places, knots) = angle::spline(arc.angles);
+        let place = |c: f64, s: f64, k: usize| arc.center[k] + c * arc.first[k] + s * arc.second[k];
+        let poles: Vec<[f64; 3]> =
+            places.iter().map(|&[c, s]| [place(c, s, 0), place(c, s, 1), 0.0]).collect();
+        let off = [0, 1].map(|k| {
+            let size = arc.first[k].abs() + arc.second[k].abs();
+            angle::error(arc.angles) * size + 4.0 * f64::EPSILON * (size + arc.center[k].abs())
+        });
+        Ok((Curve::new(&knots, angle::DEGREE, &poles, None)?, off))
+    }
+}
+
 fn flat([u, v]: [f64; 2]) -> [f64; 3] {
     [u, v, 0.0]
 }
@@ -178,7 +198,7 @@ fn isoline(spline: &Curve) -> Option<Isoline> {
 }
 
 /// The same curve over another domain.
-fn over(curve: &Curve, [start, end]: [f64; 2]) -> Result<Curve, Error> {
+pub(crate) fn over(curve: &Curve, [start, end]: [f64; 2]) -> Result<Curve, Error> {
     let (a, b) = curve.domain();
     if (a, b) == (start, end) {
         return Ok(curve.clone());

@@ -8,35 +8,36 @@
 //!   a map that turns directions     then every pcurve and every loop is reversed, and the sense of edges and face with them
 //! ```
 //!
-//! The deviation is the distance in space of the old and the new image at the same parameter of the pcurve. With `E` the difference
-//! of the mapped curve and its replacement over an interval of length h,
+//! The deviation is the distance in space of the old and the new image at the same parameter of the pcurve. There are three ways to it:
 //!
 //! ```text
-//!   |E| <= max(|E(a)|, |E(b)|) + h^2 / 8 max |E''|,   |(f(c))''| <= |f''| |c'|^2 + |f'| |c''|,   |dS| <= |Su| |E_u| + |Sv| |E_v|
+//!   derivatives    E, the difference of the mapped curve and its replacement over an interval of length h:
+//!                  |E| <= max(|E(a)|, |E(b)|) + h^2 / 8 max |E''|,   |(f(c))''| <= |f''| |c'|^2 + |f'| |c''|,
+//!                  |dS| <= |Su| |E_u| + |Sv| |E_v|                      cheap; as good as the bounds are
+//!   images         both images as Bernstein polynomials (`imager`)      sharp, whatever the transform is
+//!   samples        where a surface is given by a function               not proven, and the result says so
 //! ```
 //!
-//! which proves it where all derivatives have bounds; where the transform or the surface is given by a function it is measured at
-//! samples between the vertices, and the result says so.
+//! Polylines take the first way where its bounds are good, and the second where they would cost vertices.
 //!
 //! Reference: Yang, Yong, *Parameter transformation of trimmed surfaces*, Algorithm 1. Beyond it: mapped lines of polylines are
 //! checked, splines may be fitted, deviations are proven.
 
+use super::compare::{Apart, compare};
+use super::imager::{Drawn, Imager};
 use super::speed::{Motion, motion, speeds};
 use super::{Coedge, Loop, Support, TrimmedSurface, invalid};
 use crate::bounds::{norm, sub};
 use crate::error::Error;
 use crate::fit::{Adaptive, of_function};
 use crate::pcurve::{Parameters, Pcurve};
-use crate::transform::{Relation, Transform, between};
+use crate::transform::{Relation, Transform};
 
 /// Default tolerance as a share of the diagonal of the surface's box.
 pub const DEFAULT_TOLERANCE: f64 = 1e-7;
 
 /// Most vertices of a polyline.
 pub const MOST_VERTICES: usize = 1 << 20;
-
-/// Places per direction at which the old and the new surface are compared.
-const GRID: usize = 9;
 
 /// Where deviations are only measured: samples in an interval, and how far beyond them it may be.
 const SAMPLES: usize = 5;
@@ -47,6 +48,9 @@ const LEVELS: usize = 6;
 
 /// Times that a fit is made tighter until its error is proven.
 const ATTEMPTS: usize = 8;
+
+/// A bound from derivatives this many times the tolerance costs twice the vertices: images are compared instead.
+const WORTH: f64 = 4.0;
 
 /// What becomes of free-form curves under maps that are not linear.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -79,8 +83,12 @@ pub struct Changed {
     pub deviation: f64,
     /// Whether the deviation is proven, or the largest one at samples.
     pub proven: bool,
-    /// Largest distance of the old and the new surface at the places compared.
+    /// Largest distance of the old and the new surface at places that belong together.
     pub surface_deviation: f64,
+    /// Whether that is proven, or the largest one at [`PLACES`] squared places.
+    ///
+    /// [`PLACES`]: super::PLACES
+    pub surface_proven: bool,
 }
 
 impl TrimmedSurface {
@@ -96,6 +104,17 @@ impl TrimmedSurface {
         support: Support,
         options: &ChangeOptions,
     ) -> Result<Changed, Error> {
+        self.changed_known(transform, support, options, None)
+    }
+
+    /// As [`Self::changed`], where a bound of the distance of the surfaces may be known.
+    pub(super) fn changed_known(
+        &self,
+        transform: &Transform,
+        support: Support,
+        options: &ChangeOptions,
+        known: Option<f64>,
+    ) -> Result<Changed, Error> {
         check_domains(transform, self.support(), &support)?;
         let diagonal = support.bounding_box()?.diagonal();
         let tolerance = match options.tolerance {
@@ -103,10 +122,14 @@ impl TrimmedSurface {
             t if t > 0.0 && t.is_finite() => t,
             t => return invalid(format!("tolerance: {t} is not a positive length")),
         };
-        let surface_deviation = compare(transform, self.support(), &support, tolerance)?;
-        let mapper = Mapper {
+        let apart = match known.filter(|bound| *bound <= tolerance) {
+            Some(distance) => Apart { distance, proven: true },
+            None => compare(transform, self.support(), &support, tolerance)?,
+        };
+        let mut mapper = Mapper {
             from: self.support(),
             to: &support,
+            imagers: Imager::of(self.support())?.zip(Imager::of(&support)?),
             transform,
             speeds: speeds(&support)?,
             bounds: [&transform.u, &transform.v].map(Relation::derivative_bounds),
@@ -132,8 +155,10 @@ impl TrimmedSurface {
             loops.iter_mut().for_each(reverse);
         }
         let flipped = self.is_flipped() != turned;
+        drop(mapper);
         let face = Self::new(support, self.edges().to_vec(), loops, flipped)?;
-        Ok(Changed { face, deviation, proven, surface_deviation })
+        let Apart { distance: surface_deviation, proven: surface_proven } = apart;
+        Ok(Changed { face, deviation, proven, surface_deviation, surface_proven })
     }
 }
 
@@ -163,32 +188,6 @@ fn check_domains(transform: &Transform, from: &Support, to: &Support) -> Result<
     Ok(())
 }
 
-/// Largest distance of the surfaces at a grid of places.
-fn compare(
-    transform: &Transform,
-    from: &Support,
-    to: &Support,
-    tolerance: f64,
-) -> Result<f64, Error> {
-    let [u0, u1, v0, v1] = from.domain();
-    let mut most: f64 = 0.0;
-    for i in 0..=GRID {
-        for j in 0..=GRID {
-            let share = |k: usize| k as f64 / GRID as f64;
-            let at = [between(u0, u1, share(i)), between(v0, v1, share(j))];
-            let off = norm(sub(from.evaluate(at), to.evaluate(transform.apply(at))));
-            if off.is_nan() || off > tolerance {
-                return invalid(format!(
-                    "support: differs from the surface by {off} at ({}, {})",
-                    at[0], at[1]
-                ));
-            }
-            most = most.max(off);
-        }
-    }
-    Ok(most)
-}
-
 /// A mapped curve.
 struct Image {
     pcurve: Pcurve,
@@ -200,6 +199,8 @@ struct Image {
 struct Mapper<'a> {
     from: &'a Support,
     to: &'a Support,
+    /// For images on both; none where one is a function.
+    imagers: Option<(Imager<'a>, Imager<'a>)>,
     transform: &'a Transform,
     /// Bounds of |Ss| and |St| of the new surface.
     speeds: Option<[f64; 2]>,
@@ -211,24 +212,25 @@ struct Mapper<'a> {
 }
 
 impl Mapper<'_> {
-    fn image(&self, pcurve: &Pcurve) -> Result<Image, Error> {
+    fn image(&mut self, pcurve: &Pcurve) -> Result<Image, Error> {
         let exact = |pcurve: Pcurve, same_parameter: bool| Image {
             pcurve,
             deviation: 0.0,
             proven: true,
             same_parameter,
         };
-        let point = |p: Parameters| self.transform.apply(p);
+        let transform = self.transform;
+        let point = |p: Parameters| transform.apply(p);
         match pcurve {
             Pcurve::Isoline(line) => {
                 // Which way the image of the running parameter goes is all that the vector tells.
                 let exchanged =
-                    |[du, dv]: Parameters| if self.transform.swap { [dv, du] } else { [du, dv] };
-                let running = [&self.transform.u, &self.transform.v][line.fixed.other().index()];
+                    |[du, dv]: Parameters| if transform.swap { [dv, du] } else { [du, dv] };
+                let running = [&transform.u, &transform.v][line.fixed.other().index()];
                 Ok(exact(pcurve.mapped_by(&point, &exchanged)?, running.is_linear()))
             }
-            _ if self.transform.is_linear() => {
-                let vector = |d: Parameters| self.transform.linear_part(d).unwrap_or(d);
+            _ if transform.is_linear() => {
+                let vector = |d: Parameters| transform.linear_part(d).unwrap_or(d);
                 Ok(exact(pcurve.mapped_by(&point, &vector)?, true))
             }
             Pcurve::Polyline(_) if self.replacement == Replacement::Vertices => {
@@ -306,11 +308,28 @@ impl Mapper<'_> {
         most * SAFETY
     }
 
-    /// Whether bounds exist at all for this curve.
+    /// Whether bounds from derivatives exist at all for this curve.
     fn is_provable(&self, pcurve: &Pcurve) -> bool {
         let (a, b) = pcurve.domain();
         let none = Motion::default();
         self.speeds.is_some() && self.mapped_motion(pcurve, &none, [a, b]).is_some()
+    }
+
+    /// The curve ready for the comparison of images.
+    fn drawn(&self, pcurve: &Pcurve) -> Result<Option<Drawn>, Error> {
+        self.imagers.as_ref().map(|(from, _)| from.drawn(pcurve)).transpose()
+    }
+
+    /// A bound of the distance of the old image and that of a replacement over a range; none where it cannot be had.
+    fn compared(
+        &mut self,
+        old: &Option<Drawn>,
+        new: &Pcurve,
+        range: [f64; 2],
+    ) -> Result<Option<f64>, Error> {
+        let (Some(old), Some((from, to))) = (old, &mut self.imagers) else { return Ok(None) };
+        let new = to.drawn(new)?;
+        Ok(from.apart(old, to, &new, range, self.tolerance))
     }
 
     /// The intervals between the corners of a curve, in order, the last one first.
@@ -320,33 +339,56 @@ impl Mapper<'_> {
         places.windows(2).rev().map(|w| [w[0], w[1]]).collect()
     }
 
-    fn polyline(&self, pcurve: &Pcurve) -> Result<Image, Error> {
-        let proven = self.is_provable(pcurve);
+    /// How far the line between the images of the ends of a range may be off, and whether that is proven; infinite where more vertices
+    /// are the better way.
+    fn off_line(
+        &mut self,
+        pcurve: &Pcurve,
+        drawn: &Option<Drawn>,
+        own: &Motion,
+        range: [f64; 2],
+        ends: [Parameters; 2],
+    ) -> Result<(f64, bool), Error> {
+        let [p, q] = ends;
+        let bound = self.bound(pcurve, range, [own, &Motion::default()], [0.0; 2]);
+        if let Some(bound) = bound.filter(|b| *b <= WORTH * self.tolerance || drawn.is_none()) {
+            return Ok((bound, true));
+        }
+        let samples = self.measured(pcurve, range, |t| {
+            let share = (t - range[0]) / (range[1] - range[0]);
+            [0, 1].map(|k| p[k] + share * (q[k] - p[k]))
+        });
+        if samples > SAFETY * self.tolerance {
+            return Ok((f64::INFINITY, true));
+        }
+        let line = Pcurve::polyline_at(&range, &[p, q])?;
+        match self.compared(drawn, &line, range)? {
+            Some(sharp) => Ok((sharp, true)),
+            None => Ok(bound.map_or((samples, false), |bound| (bound, true))),
+        }
+    }
+
+    fn polyline(&mut self, pcurve: &Pcurve) -> Result<Image, Error> {
+        let drawn = self.drawn(pcurve)?;
         let mut waiting: Vec<([f64; 2], usize, Motion)> =
             Self::ranges(pcurve).into_iter().map(|range| (range, 0, Motion::default())).collect();
         let (a, _) = pcurve.domain();
         let (mut parameters, mut points) = (vec![a], vec![self.place(pcurve, a)]);
-        let mut deviation: f64 = 0.0;
+        let (mut deviation, mut proven) = (0.0f64, true);
         while let Some((range, depth, above)) = waiting.pop() {
-            let [p, q] = range.map(|t| self.place(pcurve, t));
-            let h = range[1] - range[0];
+            let ends = range.map(|t| self.place(pcurve, t));
             let own = if depth < LEVELS { motion(pcurve, range) } else { above };
-            let off = match self.bound(pcurve, range, [&own, &Motion::default()], [0.0; 2]) {
-                Some(bound) => bound,
-                // Enough pieces before samples may decide.
-                None if depth < 3 && !matches!(pcurve, Pcurve::Polyline(_)) => f64::INFINITY,
-                None => self.measured(pcurve, range, |t| {
-                    let share = (t - range[0]) / h;
-                    [0, 1].map(|k| p[k] + share * (q[k] - p[k]))
-                }),
-            };
-            if off <= self.tolerance {
+            let (off, is_bound) = self.off_line(pcurve, &drawn, &own, range, ends)?;
+            // Enough pieces before samples may decide.
+            let early = !is_bound && depth < 3 && !matches!(pcurve, Pcurve::Polyline(_));
+            if off <= self.tolerance && !early {
                 deviation = deviation.max(off);
+                proven &= is_bound;
                 parameters.push(range[1]);
-                points.push(q);
+                points.push(ends[1]);
                 continue;
             }
-            let middle = range[0] + 0.5 * h;
+            let middle = range[0] + 0.5 * (range[1] - range[0]);
             if points.len() + waiting.len() >= MOST_VERTICES
                 || !(range[0] < middle && middle < range[1])
             {
@@ -362,7 +404,8 @@ impl Mapper<'_> {
         Ok(Image { pcurve, deviation, proven, same_parameter: true })
     }
 
-    fn fitted(&self, pcurve: &Pcurve) -> Result<Image, Error> {
+    fn fitted(&mut self, pcurve: &Pcurve) -> Result<Image, Error> {
+        let drawn = self.drawn(pcurve)?;
         let (a, b) = pcurve.domain();
         let breaks: Vec<(f64, usize)> = pcurve.breaks().into_iter().map(|t| (t, 3)).collect();
         let speed = self.speeds.map_or(self.to.bounding_box()?.diagonal(), |s| s[0].max(s[1]));
@@ -373,8 +416,12 @@ impl Mapper<'_> {
             let fit = of_function(|t| Some(self.place(pcurve, t)), [a, b], &options)?;
             if fit.worst <= wish {
                 let new = Pcurve::spline(fit.spline.curve()?)?;
-                if let Some(deviation) = self.checked(pcurve, &new) {
-                    let proven = self.is_provable(pcurve);
+                let sharp = self.compared(&drawn, &new, [a, b])?;
+                let (found, proven) = match sharp {
+                    Some(bound) => (Some(bound).filter(|b| *b <= self.tolerance), true),
+                    None => (self.checked(pcurve, &new), self.is_provable(pcurve)),
+                };
+                if let Some(deviation) = found {
                     return Ok(Image { pcurve: new, deviation, proven, same_parameter: true });
                 }
             }

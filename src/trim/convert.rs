@@ -6,11 +6,11 @@
 
 use std::sync::Arc;
 
+use super::compare::linearly;
 use super::{ChangeOptions, Changed, Support, TrimmedSurface, invalid};
 use crate::callback::{CallbackSurface, SurfaceBounds};
 use crate::elementary::{CircleForm, ElementarySurface};
 use crate::error::Error;
-use crate::operate::Direction;
 use crate::surface::Surface;
 use crate::transform::{Relation, Transform};
 
@@ -49,7 +49,9 @@ impl TrimmedSurface {
         };
         let surface = elementary.surface();
         let transform = form_transform(surface, forms)?;
-        self.changed(&transform, surface.nurbs(forms)?.into(), options)
+        let form = surface.nurbs(forms)?;
+        let known = rounding(&form);
+        self.changed_known(&transform, form.into(), options, Some(known))
     }
 
     /// This face of a NURBS form on the elementary surface that it is the form of. Knots may have been refined and degrees raised.
@@ -63,7 +65,15 @@ impl TrimmedSurface {
         options: &ChangeOptions,
     ) -> Result<Changed, Error> {
         let transform = form_transform(&surface, forms)?.inverse();
-        self.changed(&transform, surface.into(), options)
+        // Proven when the face's surface is near the form itself.
+        let mut known = None;
+        if let Support::Spline(spline) = self.support() {
+            let form = surface.nurbs(forms)?;
+            if form.domain() == spline.surface().domain() {
+                known = Some(form.difference(spline.surface())?.bound + rounding(&form));
+            }
+        }
+        self.changed_known(&transform, surface.into(), options, known)
     }
 
     /// This face on another spline form with the same parametrisation: with more knots, or of higher degree.
@@ -102,19 +112,11 @@ impl TrimmedSurface {
     }
 }
 
-/// A spline in linearly changed parameters.
-fn linearly(surface: &Surface, transform: &Transform) -> Result<Surface, Error> {
-    let mut new = surface.clone();
-    for (direction, relation) in [(Direction::U, &transform.u), (Direction::V, &transform.v)] {
-        if !relation.is_increasing() {
-            new = new.reverse(direction)?;
-        }
-    }
-    let ([u0, u1], [v0, v1]) = (transform.u.image(), transform.v.image());
-    if new.domain() != [u0, u1, v0, v1] {
-        new = new.with_domain([u0, u1, v0, v1])?;
-    }
-    if transform.swap { new.swap() } else { Ok(new) }
+/// How far points of a NURBS form may be from those of the elementary surface, which they are but for rounding.
+fn rounding(form: &Surface) -> f64 {
+    let (low, high) = form.bounding_box();
+    let largest = low.iter().chain(&high).fold(0.0, |most: f64, x| most.max(x.abs()));
+    64.0 * f64::EPSILON * largest
 }
 
 /// A surface in other parameters, by a function of the old one.

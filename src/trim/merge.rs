@@ -9,20 +9,21 @@
 //!
 //! Surfaces whose parameters do not fit are changed first ([`TrimmedSurface::changed`] with a linear transform).
 
+use super::compare::compare_part;
 use super::flat::{Flat, Scale, far};
-use super::{ChangeOptions, Coedge, DEFAULT_TOLERANCE, Loop, LoopKind, Support, TrimmedSurface};
-use super::{invalid, norm, sub};
+use super::{ChangeOptions, Coedge, DEFAULT_TOLERANCE, Edge, EdgeCurve, Loop, LoopKind};
+use super::{Support, TrimmedSurface, invalid};
+use crate::closest::{QueryOptions, Workspace};
+use crate::elementary::part;
 use crate::error::Error;
+use crate::index::IndexedCurve;
 use crate::pcurve::{Direction, Isoline, Parameters, Pcurve};
-use crate::transform::between;
-
-/// Places per direction at which the surfaces are compared.
-const GRID: usize = 9;
+use std::sync::Arc;
 
 impl TrimmedSurface {
     /// This face and `other` on `support`, whose domain is the union of theirs and whose points are theirs. The domains follow each
-    /// other in `direction` and agree in the other one, bit for bit. Edges that end up inside are dropped; a coedge of which only a
-    /// part is left has no edge any more. Of the options the tolerance counts.
+    /// other in `direction` and agree in the other one, bit for bit. Edges that end up inside are dropped; what is left of a coedge keeps
+    /// that part of its edge. Of the options the tolerance counts.
     ///
     /// # Errors
     /// Domains that do not follow each other; faces with opposite normals; a surface that differs by more than the tolerance, with the
@@ -44,7 +45,7 @@ impl TrimmedSurface {
             t => return invalid(format!("tolerance: {t} is not a positive length")),
         };
         for (name, face) in [("face", self), ("other", other)] {
-            compare(name, face.support(), &support, tolerance)?;
+            compare_part(name, face.support(), &support, tolerance)?;
         }
         let mut edges = self.edges().to_vec();
         edges.extend_from_slice(other.edges());
@@ -58,24 +59,42 @@ impl TrimmedSurface {
         };
         let all: Vec<Vec<Coedge>> =
             chains(self, 0).into_iter().chain(chains(other, shift)).collect();
-        let kept = without_common(all, direction, border)?;
+        let kept = without_common(&support, all, &mut edges, direction, border)?;
         let scale = Scale::of(&support)?;
         let loops = joined(kept, &scale, tolerance)?;
-        // Edges that are used no more go.
-        let mut number = vec![None; edges.len()];
-        let mut left = Vec::new();
-        let mut loops = loops;
-        for coedge in loops.iter_mut().flat_map(|chain| &mut chain.coedges) {
-            if let Some(edge) = coedge.edge {
-                let new = *number[edge].get_or_insert_with(|| {
-                    left.push(edges[edge].clone());
-                    left.len() - 1
-                });
-                coedge.edge = Some(new);
-            }
-        }
-        Self::new(support, left, loops, self.is_flipped())
+        let (edges, loops) = with_used(edges, loops);
+        Self::new(support, edges, loops, self.is_flipped())
     }
+}
+
+/// The edges that loops use, and the loops with their numbers.
+pub(super) fn with_used(edges: Vec<Edge>, mut loops: Vec<Loop>) -> (Vec<Edge>, Vec<Loop>) {
+    let mut number = vec![None; edges.len()];
+    let mut left = Vec::new();
+    for coedge in loops.iter_mut().flat_map(|chain| &mut chain.coedges) {
+        if let Some(edge) = coedge.edge {
+            let new = *number[edge].get_or_insert_with(|| {
+                left.push(edges[edge].clone());
+                left.len() - 1
+            });
+            coedge.edge = Some(new);
+        }
+    }
+    (left, loops)
+}
+
+/// What a closed chain of coedges bounds, by the sign of its area.
+pub(super) fn kind_of(coedges: &[Coedge], scale: &Scale, tolerance: f64) -> LoopKind {
+    let origin = scale.point(coedges[0].start());
+    let mut twice = 0.0;
+    for coedge in coedges {
+        let flat = Flat::new(&coedge.pcurve, scale, tolerance);
+        for pair in flat.points.windows(2) {
+            let [p, q] = [pair[0], pair[1]].map(|p| [p[0] - origin[0], p[1] - origin[1]]);
+            twice += p[0] * q[1] - p[1] * q[0];
+        }
+    }
+    if twice > 0.0 { LoopKind::Outer } else { LoopKind::Inner }
 }
 
 /// The common border, when the domains follow each other.
@@ -105,22 +124,6 @@ fn check_domains(
     Ok(b[own])
 }
 
-fn compare(name: &str, part: &Support, whole: &Support, tolerance: f64) -> Result<(), Error> {
-    let [u0, u1, v0, v1] = part.domain();
-    for k in 0..(GRID + 1) * (GRID + 1) {
-        let share = |k: usize| k as f64 / GRID as f64;
-        let at = [between(u0, u1, share(k % (GRID + 1))), between(v0, v1, share(k / (GRID + 1)))];
-        let off = norm(sub(part.evaluate(at), whole.evaluate(at)));
-        if off.is_nan() || off > tolerance {
-            let [u, v] = at;
-            return invalid(format!(
-                "support: differs from the surface of the {name} by {off} at ({u}, {v})"
-            ));
-        }
-    }
-    Ok(())
-}
-
 /// A piece of the common border: from, to.
 type Span = [f64; 2];
 
@@ -132,9 +135,47 @@ fn on_border(coedge: &Coedge, direction: Direction, border: f64) -> Option<Isoli
     }
 }
 
+/// The part of an edge that belongs to the part of a coedge between two shares; none when it is a point of a curve.
+pub(super) fn part_of_edge(
+    support: &Support,
+    edge: &Edge,
+    coedge: &Coedge,
+    shares: [f64; 2],
+) -> Result<Option<Edge>, Error> {
+    let parameter = |share: f64| {
+        let along = if coedge.reversed { 1.0 - share } else { share };
+        if coedge.same_parameter || along == 0.0 || along == 1.0 {
+            return edge.parameter_at(along);
+        }
+        let place = coedge.pcurve.evaluate(coedge.pcurve.parameter_at(share));
+        let (query, options) = (support.evaluate(place), QueryOptions::default());
+        match &edge.curve {
+            EdgeCurve::Spline(curve) => {
+                curve.closest(query, None, &options, &mut Workspace::default(), None).u
+            }
+            EdgeCurve::Callback(curve) => curve.closest(query, None, &options, None).u,
+            EdgeCurve::Point(_) => 0.0,
+        }
+    };
+    let [a, b] = shares.map(parameter);
+    let ends = [a.min(b), a.max(b)];
+    let curve = match &edge.curve {
+        EdgeCurve::Point(point) => EdgeCurve::Point(*point),
+        // Also where a function fails.
+        _ if ends[0].is_nan() || ends[0] >= ends[1] => return Ok(None),
+        EdgeCurve::Spline(curve) => {
+            EdgeCurve::Spline(Arc::new(IndexedCurve::new(part(curve.curve(), ends)?)))
+        }
+        EdgeCurve::Callback(curve) => EdgeCurve::Callback(Arc::new(curve.part(ends)?)),
+    };
+    Ok(Some(Edge { curve, reversed: edge.reversed }))
+}
+
 /// The coedges of all loops without what runs both ways on the border.
 fn without_common(
+    support: &Support,
     chains: Vec<Vec<Coedge>>,
+    edges: &mut Vec<Edge>,
     direction: Direction,
     border: f64,
 ) -> Result<Vec<Coedge>, Error> {
@@ -157,7 +198,20 @@ fn without_common(
         }
         for [a, b] in left {
             let (from, to) = if rising { (a, b) } else { (b, a) };
-            kept.push(Coedge::alone(Pcurve::isoline(direction, border, from, to)?));
+            let pcurve = Pcurve::isoline(direction, border, from, to)?;
+            let share = |x: f64| (x - line.from) / (line.to - line.from);
+            let shares = [share(from), share(to)];
+            let cut = match coedge.edge {
+                Some(edge) => part_of_edge(support, &edges[edge], &coedge, shares)?,
+                None => None,
+            };
+            kept.push(match cut {
+                Some(cut) => {
+                    edges.push(cut);
+                    Coedge { pcurve, edge: Some(edges.len() - 1), ..coedge.clone() }
+                }
+                None => Coedge::alone(pcurve),
+            });
         }
     }
     Ok(kept)
@@ -207,19 +261,7 @@ fn joined(mut left: Vec<Coedge>, scale: &Scale, tolerance: f64) -> Result<Vec<Lo
                 }
             }
         }
-        let mut twice = 0.0;
-        for coedge in &coedges {
-            let flat = Flat::new(&coedge.pcurve, scale, tolerance);
-            let from = |p: Parameters| {
-                let origin = scale.point(start);
-                [p[0] - origin[0], p[1] - origin[1]]
-            };
-            for pair in flat.points.windows(2) {
-                let (p, q) = (from(pair[0]), from(pair[1]));
-                twice += p[0] * q[1] - p[1] * q[0];
-            }
-        }
-        let kind = if twice > 0.0 { LoopKind::Outer } else { LoopKind::Inner };
+        let kind = kind_of(&coedges, scale, tolerance);
         loops.push(Loop { kind, coedges });
     }
     Ok(loops)

@@ -5,7 +5,7 @@
 //!   wrong direction   an outer loop that runs clockwise, an inner one that does not    sign of the area, with its error
 //!   crossing          two coedges that change sides                                    proven
 //!   touching          two coedges nearer than the tolerance away from common ends      none farther is named
-//!   edge gap          the image of a pcurve away from its edge                         at samples
+//!   edge gap          the image of a pcurve away from its edge                         found at samples, bounded between (`gap`)
 //!   containment       a hole outside, an outer loop inside another one                 winding numbers
 //!   sense             an edge that both of its coedges run along the same way          -
 //!   outside           a pcurve that leaves the domain                                  by its box
@@ -13,23 +13,19 @@
 //!
 //! Distances in the domain are measured with bounds of the speeds of the surface (`flat`): what is found to be apart by a
 //! length here may be nearer in space only where the surface is slower than its bound, as at a pole. Coedges without a finding are
-//! proven to be disjoint, the error of their segments included; next to a common end, up to a hundredth of the shorter one, only that their
-//! segments do not cross is. Edge gaps are the largest at
-//! [`GAP_SAMPLES`] places and at all corners of each coedge, not proven between them.
+//! proven to be disjoint, the error of their segments included; within a hundredth of the shorter one from a common end, or eight
+//! tolerances, only that their segments do not cross is. Edge gaps are found at [`super::GAP_SAMPLES`] places and at all corners of each coedge, and have a proven
+//! bound where no function takes part.
 
 use super::flat::{Flat, Scale, far, meeting};
-use super::{EdgeCurve, LoopKind, TrimmedSurface, invalid, norm, sub};
-use crate::bounds::Vector;
-use crate::closest::{QueryOptions, Workspace};
+use super::gap::Gaps;
+use super::{LoopKind, TrimmedSurface, invalid, norm, sub};
 use crate::error::Error;
 use crate::pcurve::{Parameters, Pcurve};
 use crate::transform::between;
 
 /// Default tolerance as a share of the diagonal of the surface's box.
 pub const REPORT_TOLERANCE: f64 = 1e-7;
-
-/// Places on each coedge at which its edge is compared.
-pub const GAP_SAMPLES: usize = 33;
 
 /// Around a common end, this many tolerances are part of the corner.
 const CORNER: f64 = 8.0;
@@ -142,6 +138,9 @@ pub struct Report {
     pub largest_opening: f64,
     /// Largest distance of a pcurve's image and its edge at samples.
     pub largest_gap: f64,
+    /// Proven: no image of a pcurve and its edge are farther apart, at equal parameters where they share them, else as sets of points.
+    /// Infinite where a function takes part or a pcurve leaves the domain.
+    pub gap_bound: f64,
     /// Area of each loop in the domain; counter-clockwise is positive.
     pub areas: Vec<f64>,
     /// How far segments may be from the curves, a length; below the tolerance unless a curve is very long.
@@ -173,6 +172,48 @@ impl Hit {
         let touch = !self.crossing && !next.crossing && beside(0) && beside(1);
         touch || far(self.at, next.at) <= near
     }
+}
+
+/// A part of a segment of a chain.
+struct Clipped {
+    ends: [Parameters; 2],
+    /// Its shares of the segment.
+    shares: [f64; 2],
+}
+
+impl Clipped {
+    fn of(flat: &Flat, k: usize) -> Self {
+        Self { ends: flat.segment(k), shares: [0.0, 1.0] }
+    }
+
+    fn at(&self, share: f64) -> Parameters {
+        let [a, b] = self.ends;
+        [0, 1].map(|k| a[k] + share * (b[k] - a[k]))
+    }
+
+    /// The share of the whole segment.
+    fn share(&self, share: f64) -> f64 {
+        self.shares[0] + share * (self.shares[1] - self.shares[0])
+    }
+
+    /// Leaves what is farther than `reach` from a corner near one of its ends; false when nothing is.
+    fn leave(&mut self, corner: Parameters, reach: f64) -> bool {
+        let [x, y] = self.ends.map(|end| far(end, corner));
+        if x.max(y) <= reach {
+            return false;
+        }
+        if x.min(y) < reach {
+            let cut = (reach - x) / (y - x);
+            let side = usize::from(x > y);
+            (self.ends[side], self.shares[side]) = (self.at(cut), self.share(cut));
+        }
+        true
+    }
+}
+
+/// Whether the second of two neighbouring segments goes back along the first.
+fn turns_back([a, b]: [Parameters; 2], [c, d]: [Parameters; 2]) -> bool {
+    (b[0] - a[0]) * (d[0] - c[0]) + (b[1] - a[1]) * (d[1] - c[1]) < 0.0
 }
 
 struct Checker<'a> {
@@ -210,13 +251,14 @@ impl TrimmedSurface {
         let areas = checker.directions();
         checker.contacts();
         checker.containment();
-        let largest_gap = checker.gaps()?;
+        let [largest_gap, gap_bound] = checker.gaps()?;
         checker.senses();
         let errors = checker.flats.iter().flatten().map(|flat| flat.error);
         Ok(Report {
             tolerance,
             largest_opening,
             largest_gap,
+            gap_bound,
             areas,
             segment_error: errors.fold(0.0, f64::max),
             proven: scale.proven,
@@ -357,22 +399,41 @@ impl Checker<'_> {
         let wide = near + CORNER_SHARE * a.length.min(b.length);
         let mut hits: Vec<Hit> = Vec::new();
         let complete = a.pairs(b, contact, &mut |i, j| {
-            if own && (i >= j || (j - i < 2 || a.run(i + 1, j) <= near)) {
+            let (mut p, mut q) = (Clipped::of(a, i), Clipped::of(b, j));
+            let (mut ends, mut wide) = (corners.clone(), wide);
+            if own && i >= j || own && j - i > 1 && a.run(i + 1, j) <= near {
                 return;
             }
-            let (p, q) = (a.segment(i), b.segment(j));
-            let (crossing, distance, shares) = meeting(p, q, a.error + b.error);
+            if own && j - i == 1 {
+                // Neighbours touch where they turn back.
+                if !turns_back(p.ends, q.ends) {
+                    return;
+                }
+                ends = vec![a.points[j]];
+                wide =
+                    near + CORNER_SHARE * far(p.ends[0], p.ends[1]).min(far(q.ends[0], q.ends[1]));
+            }
+            let (mut crossing, mut distance, mut shares) =
+                meeting(p.ends, q.ends, a.error + b.error);
             if distance > contact {
                 return;
             }
-            let at = [0, 1].map(|k| p[0][k] + shares[0] * (p[1][k] - p[0][k]));
             let reach = if crossing { near } else { wide };
-            if corners.iter().any(|corner| far(*corner, at) <= reach) {
-                return;
+            if ends.iter().any(|corner| far(*corner, p.at(shares[0])) <= reach) {
+                // The corner itself is no contact; what comes after it may be.
+                let all = ends.iter().all(|c| p.leave(*c, wide) && q.leave(*c, wide));
+                if !all {
+                    return;
+                }
+                (crossing, distance, shares) = meeting(p.ends, q.ends, a.error + b.error);
+                if distance > contact {
+                    return;
+                }
             }
-            let s = between(a.parameters[i], a.parameters[i + 1], shares[0]);
-            let t = between(b.parameters[j], b.parameters[j + 1], shares[1]);
-            hits.push(Hit { crossing, distance, at, segments: [i, j], parameters: [s, t] });
+            let s = between(a.parameters[i], a.parameters[i + 1], p.share(shares[0]));
+            let t = between(b.parameters[j], b.parameters[j + 1], q.share(shares[1]));
+            let (at, segments) = (p.at(shares[0]), [i, j]);
+            hits.push(Hit { crossing, distance, at, segments, parameters: [s, t] });
         });
         if !complete {
             findings.push(Finding::Undecided { first, second });
@@ -423,43 +484,27 @@ impl Checker<'_> {
         }
     }
 
-    fn gaps(&mut self) -> Result<f64, Error> {
-        let mut largest: f64 = 0.0;
-        let mut workspace = Workspace::default();
-        for [chain, number] in self.all() {
-            let coedge = &self.face.loops()[chain].coedges[number];
-            let Some(edge) = coedge.edge else { continue };
-            let curve = &self.face.edges()[edge].curve;
-            let (a, b) = coedge.pcurve.domain();
-            let mut shares: Vec<f64> =
-                (0..GAP_SAMPLES).map(|k| k as f64 / (GAP_SAMPLES - 1) as f64).collect();
-            shares.extend(coedge.pcurve.breaks().iter().map(|t| (t - a) / (b - a)));
-            let mut worst = (0.0f64, a);
-            for share in shares {
-                let point = self.face.coedge_point(coedge, share);
-                let parameter = coedge.pcurve.parameter_at(share);
-                let gap = if coedge.same_parameter || share == 0.0 || share == 1.0 {
-                    let there = self.face.edge_point(coedge, share);
-                    norm(sub(point, there.unwrap_or([f64::NAN; 3])))
-                } else {
-                    from_curve(curve, point, &mut workspace)
-                };
-                if gap.is_nan() {
-                    let place = Place { chain, coedge: number, parameter };
-                    self.findings.push(Finding::Failing { place });
-                    break;
-                }
-                if gap > worst.0 {
-                    worst = (gap, parameter);
-                }
+    /// The largest gap at samples, and a bound of all.
+    fn gaps(&mut self) -> Result<[f64; 2], Error> {
+        let (mut largest, mut bound) = (0.0f64, 0.0f64);
+        let face = self.face;
+        let mut gaps = Gaps::new(face, self.tolerance)?;
+        for (chain, number, coedge) in face.coedges() {
+            let Some(edge) = coedge.edge.map(|edge| &face.edges()[edge]) else { continue };
+            let (gap, parameter) = gaps.measured(coedge, edge);
+            let place = Place { chain, coedge: number, parameter };
+            if gap.is_nan() {
+                self.findings.push(Finding::Failing { place });
+                bound = f64::INFINITY;
+                continue;
             }
-            largest = largest.max(worst.0);
-            if worst.0 > self.tolerance {
-                let place = Place { chain, coedge: number, parameter: worst.1 };
-                self.findings.push(Finding::EdgeGap { place, gap: worst.0 });
+            largest = largest.max(gap);
+            bound = bound.max(gaps.bound(coedge, edge)?.max(gap));
+            if gap > self.tolerance {
+                self.findings.push(Finding::EdgeGap { place, gap });
             }
         }
-        Ok(largest)
+        Ok([largest, bound])
     }
 
     fn senses(&mut self) {
@@ -474,16 +519,6 @@ impl Checker<'_> {
                 self.findings.push(Finding::Sense { edge });
             }
         }
-    }
-}
-
-/// Distance of a point from a curve.
-fn from_curve(curve: &EdgeCurve, point: Vector, workspace: &mut Workspace) -> f64 {
-    let options = QueryOptions::default();
-    match curve {
-        EdgeCurve::Spline(curve) => curve.closest(point, None, &options, workspace, None).distance,
-        EdgeCurve::Callback(curve) => curve.closest(point, None, &options, None).distance,
-        EdgeCurve::Point(there) => norm(sub(point, *there)),
     }
 }
 

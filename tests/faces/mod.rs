@@ -1,4 +1,5 @@
 //! Random faces on spheres: loops through the seam, around a pole, inner holes, full belts.
+#![allow(dead_code, reason = "each test takes what it needs")]
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 

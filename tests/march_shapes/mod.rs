@@ -156,3 +156,18 @@ pub fn lid(n: usize, z: f64, lift: impl Fn(P) -> P) -> Surface {
     let k = [0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
     Surface::new(&k, &k, 3, 3, &poles, 4, 4, None).unwrap()
 }
+
+/// A bicubic sheet of `count` x `count` poles over [-3, 3]^2 with waves of height about one.
+pub fn wave(count: usize, phase: f64) -> Surface {
+    let at = |k: usize| -3.0 + 6.0 * k as f64 / (count - 1) as f64;
+    let height = |x: f64, y: f64| 0.9 * (1.3 * x + phase).sin() * (1.1 * y - 0.7 * phase).cos();
+    let poles: Vec<P> = (0..count * count)
+        .map(|k| (at(k / count), at(k % count)))
+        .map(|(x, y)| [x, y, height(x, y)])
+        .collect();
+    let inner = count - 4;
+    let mut k = vec![0.0; 4];
+    k.extend((1..=inner).map(|i| i as f64 / (inner + 1) as f64));
+    k.extend([1.0; 4]);
+    Surface::new(&k, &k, 3, 3, &poles, count, count, None).unwrap()
+}

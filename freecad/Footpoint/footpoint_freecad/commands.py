@@ -309,7 +309,8 @@ class Reflections(QtGui.QDockWidget):
         options = {}
         view = getattr(Gui.ActiveDocument, "ActiveView", None)
         if hasattr(view, "getViewDirection"):
-            options = {"eye": tuple(-view.getViewDirection()), "up": tuple(view.getUpDirection())}
+            turned = view.getCameraOrientation()
+            options = {"eye": tuple(-view.getViewDirection()), "up": tuple(turned.multVec(FreeCAD.Vector(0, 1, 0)))}
         made = fairing.picture(self.shape, self.box.currentIndex(), (480, 360), **options)
         picture = QtGui.QPixmap()
         picture.loadFromData(made.png(), "PNG")

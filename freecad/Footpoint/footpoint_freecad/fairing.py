@@ -50,7 +50,7 @@ def inspected(shape: Any) -> tuple[list[str], Any]:
     import FreeCAD
 
     one, inspect = of(shape), library().inspect
-    found = inspect.curvature_range(one)
+    found = inspect.curvature_range(one, side=inspect.Side.GREATEST)
     radius = found.radius
     text = [f"least radius of curvature: {_between(*radius)} mm" + (", proven" if found.proven else f", not proven to 0.1 % ({found.excluded:.2%} left out)")]
     if isinstance(one, library().Surface):

@@ -75,6 +75,43 @@ def answer_distances(values):
     QtCore.QTimer.singleShot(800, fill)
 
 
+def answer_deviation(value, name):
+    """Types the greatest deviation into the dialog that the next button opens and keeps a picture of it; None: it is cancelled."""
+    def fill():
+        dialog = QtGui.QApplication.activeModalWidget()
+        check("a deviation is asked for", dialog is not None and dialog.objectName() == "FootpointFairing")
+        if value is None:
+            dialog.reject()
+            return
+        dialog.findChild(QtGui.QDoubleSpinBox).setValue(value)
+        shot(name)
+        dialog.accept()
+    QtCore.QTimer.singleShot(800, fill)
+
+
+def wavy_edge():
+    """A spline through an arch with waves of 0.15 mm."""
+    curve = Part.BSplineCurve()
+    x = np.linspace(0, 100, 41)
+    curve.interpolate([V(t, t * (100 - t) / 60 + 0.15 * (-1) ** k * (0 < k < 40), 0) for k, t in enumerate(x)])
+    return curve.toShape()
+
+
+def wavy_face():
+    """A shallow dome over 100 mm x 80 mm whose inner poles are off by up to 0.2 mm."""
+    count, rng = 16, np.random.default_rng(5)
+    knots = np.concatenate([[0.0] * 4, np.arange(1, count - 3) / (count - 3), [1.0] * 4])
+    at = np.convolve(knots[1:-1], np.ones(3) / 3, "valid")
+    noise = np.zeros((count, count))
+    noise[2:-2, 2:-2] = rng.uniform(-0.2, 0.2, (count - 4, count - 4))
+    poles = [[V(100 * u, 80 * v, 60 * u * (1 - u) + 30 * v * (1 - v) + noise[i, j]) for j, v in enumerate(at)] for i, u in enumerate(at)]
+    single = np.unique(knots)
+    many = [4] + [1] * (len(single) - 2) + [4]
+    surface = Part.BSplineSurface()
+    surface.buildFromPolesMultsKnots(poles, many, many, single.tolist(), single.tolist(), False, False, 3, 3)
+    return surface.toShape()
+
+
 def part():
     """A bracket: a lofted horn on a bored plate with rounded corners."""
     plate = Part.makeBox(80, 60, 12)
@@ -210,6 +247,7 @@ def steps():
     shot("freecad_weights.png")
     Gui.Selection.clearSelection()
     found.ViewObject.Visibility = drawn.ViewObject.Visibility = False
+    yield from fairing(document)
     source.ViewObject.Visibility = True
     Gui.ActiveDocument.ActiveView.viewIsometric()
     yield
@@ -255,6 +293,77 @@ def steps():
     check("deviation: cancelled by its dialog", commands.with_dialog(source.Shape, many) is None)
     document.saveAs(os.path.join(OUT, "demo.FCStd"))
     check("the document is saved", os.path.getsize(os.path.join(OUT, "demo.FCStd")) > 1000)
+
+
+def fairing(document):
+    """Fair curve, Fair surface and Inspect, with their dialogs."""
+    edge = document.addObject("Part::Feature", "WavyEdge")
+    edge.Shape = wavy_edge()
+    face = document.addObject("Part::Feature", "WavyFace")
+    face.Shape = wavy_face()
+    face.ViewObject.Visibility = False
+    document.recompute()
+    Gui.ActiveDocument.ActiveView.viewTop()
+    Gui.SendMsgToActiveView("ViewFit")
+    yield
+    Gui.Selection.clearSelection()
+    Gui.Selection.addSelection(document.Name, "WavyEdge", "Edge1")
+    answer_deviation(None, "")
+    press("Footpoint_FairCurve")
+    check("fair curve: nothing comes of a cancelled dialog", document.getObject("Fair") is None)
+    answer_deviation(0.4, "freecad_fair_curve.png")
+    press("Footpoint_FairCurve")
+    found = document.getObject("Fair")
+    check(f"fair curve: {found.Label}", found in document.getObject("Footpoint").Group)
+    apart = max(found.Shape.distToShape(Part.Vertex(p))[0] for p in edge.Shape.Edges[0].discretize(400))
+    check(f"fair curve: {apart:.6f} mm apart by FreeCAD, 0.4 allowed", 0.01 < apart <= 0.4 * (1 + 1e-9))
+    yield
+    for name in ("WavyEdge", found.Name):
+        Gui.Selection.clearSelection()
+        Gui.Selection.addSelection(document.Name, name, "Edge1")
+        press("Footpoint_Inspect")
+    before, after = document.getObject("Inspect"), document.getObject("Inspect001")
+    turns = [int(next(line for line in one.Report if line.startswith("inflections")).split()[-1]) for one in (before, after)]
+    check(f"inspect: inflections {turns[0]} before, {turns[1]} after", turns[0] > 20 and turns[1] <= 2)
+    Gui.SendMsgToActiveView("ViewFit")
+    shot("freecad_inspect_curve.png")
+    for one in (edge, found, before, after):
+        one.ViewObject.Visibility = False
+    face.ViewObject.Visibility = True
+    Gui.ActiveDocument.ActiveView.viewIsometric()
+    Gui.SendMsgToActiveView("ViewFit")
+    yield
+    Gui.Selection.clearSelection()
+    Gui.Selection.addSelection(document.Name, "WavyFace", "Face1")
+    press("Footpoint_Inspect")
+    dock = Gui.getMainWindow().findChild(QtGui.QDockWidget, "FootpointReflections")
+    check("inspect: pictures of the face are shown", dock is not None and dock.label.pixmap().width() == 480)
+    seen = set()
+    for pattern in range(dock.box.count()):
+        dock.box.setCurrentIndex(pattern)
+        seen.add(dock.label.pixmap().toImage().cacheKey())
+    check(f"inspect: {len(seen)} patterns", len(seen) == 9)
+    dock.box.setCurrentIndex(1)
+    shot("freecad_inspect_before.png")
+    yield
+    Gui.Selection.clearSelection()
+    Gui.Selection.addSelection(document.Name, "WavyFace", "Face1")
+    answer_deviation(0.5, "freecad_fair_surface.png")
+    press("Footpoint_FairSurface")
+    found = document.getObject("Fair001")
+    check(f"fair surface: {found.Label}", found is not None and found in document.getObject("Footpoint").Group)
+    face.ViewObject.Visibility = False
+    Gui.Selection.clearSelection()
+    Gui.Selection.addSelection(document.Name, found.Name, "Face1")
+    press("Footpoint_Inspect")
+    Gui.Selection.clearSelection()
+    shot("freecad_inspect_after.png")
+    dock = Gui.getMainWindow().findChild(QtGui.QDockWidget, "FootpointReflections")
+    Gui.getMainWindow().removeDockWidget(dock)
+    dock.deleteLater()
+    for one in document.Objects:
+        if one.Name.startswith(("Fair", "Inspect", "Wavy")):
+            one.ViewObject.Visibility = False
 
 
 running = steps()

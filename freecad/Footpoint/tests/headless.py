@@ -3,6 +3,7 @@
 Prints a table of Surface.parameter beside ours, then "N passed, M failed"; the exit code says whether all passed.
 """
 
+import json
 import os
 import sys
 import tempfile
@@ -241,6 +242,7 @@ def test_weights():
 
 def test_faces_as_trimmed_surfaces():
     """Points, normals and loops are FreeCAD's; elementary faces go to NURBS with a proof."""
+    import footpoint
     from footpoint import trims
 
     box = Part.makeBox(8, 8, 8, V(-4, -4, -4))
@@ -248,7 +250,12 @@ def test_faces_as_trimmed_surfaces():
               Part.makeCylinder(3, 10, V(0, 0, -5)).cut(Part.makeCylinder(1.5, 10, V(-5, 0, 0.3), V(1, 0, 0))),
               box.cut(Part.makeSphere(3, V(4, 4, 4))), Part.makeSphere(3).cut(Part.makeCylinder(1, 10, V(0.4, 0.3, -5))),
               box.makeFillet(0.8, box.Edges), loft()]
-    count = 0
+    wave = Part.BSplineCurve()
+    wave.interpolate([V(2 + 0.4 * np.sin(1.7 * k), 0, k) for k in range(6)])
+    ellipse = Part.Ellipse(V(4, 0, 0), 1.5, 0.7).toShape()
+    solids += [wave.toShape().revolve(V(0, 0, 0), V(0, 0, 1), 360), wave.toShape().revolve(V(0, 0, 0), V(0, 0, 1), 140),
+               wave.toShape().extrude(V(0.3, 2, 0)), ellipse.extrude(V(1, 3, 0.5)), ellipse.revolve(V(0, 0, 0), V(0, 1, 0), 200)]
+    count, kinds = 0, set()
     for number, solid in enumerate(solids):
         placed = solid.copy()
         placed.rotate(V(1, 2, 3), V(1, -2, 0.5), 40)
@@ -256,7 +263,9 @@ def test_faces_as_trimmed_surfaces():
             count += 1
             trim = trims.from_freecad(face)
             assert trim.is_flipped == (face.Orientation == "Reversed"), number
-            assert trim.report(1e-6).findings == [], (number, trim.report(1e-6).findings)
+            report = trim.report(1e-6)
+            assert report.findings == [] and report.gap_bound < 1e-5, (number, report)
+            kinds.add(json.loads(trim.to_json())["support"]["kind"])
             for k, loop in enumerate(trim.loops):
                 for i in range(len(loop.coedges)):
                     uv, points, _ = trim.evaluate(k, i, [0, 0.4, 1])
@@ -265,7 +274,19 @@ def test_faces_as_trimmed_surfaces():
             if type(face.Surface).__name__ in ("Sphere", "Cylinder", "Cone", "Toroid"):
                 changed = trim.to_nurbs(tolerance=1e-5)
                 assert changed.proven and changed.face.report(3e-5).findings == [], number
+            # Sides and nearest points in FreeCAD's parameters.
+            prepared = footpoint.Face.of_trim(trim)
+            u0, u1, v0, v1 = face.ParameterRange
+            for x, y in ((0.31, 0.47), (0.71, 0.13), (0.07, 0.93)):
+                u, v = u0 + x * (u1 - u0), v0 + y * (v1 - v0)
+                standing = prepared.classify([u, v], tolerance=1e-5)["standing"]
+                if standing != footpoint.Standing.ON_EDGE:
+                    assert (standing == footpoint.Standing.INSIDE) == face.isPartOfDomain(u, v), (number, u, v)
+                query = face.valueAt(u, v) + V(0.3, -0.4, 0.2)
+                feet, _ = prepared.closest([tuple(query)])
+                assert feet.distance[0] <= Part.Vertex(query).distToShape(face)[0] + 1e-6, (number, u, v)
     assert count > 50, count
+    assert {"plane", "cylinder", "cone", "sphere", "torus", "spline", "revolution", "extrusion"} <= kinds, kinds
 
 
 def test_fairing_and_inspection():
