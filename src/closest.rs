@@ -15,6 +15,7 @@
 //! budget; it is then marked, never guessed.
 
 mod proof;
+mod settle;
 
 mod certificate;
 

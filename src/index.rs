@@ -15,14 +15,18 @@
 //! Built once, on first use or by `prepare`; immutable afterwards and shared by threads without locks.
 
 mod around;
+mod patch;
 mod patches;
 mod piece;
+mod reach;
 mod recognise;
 mod segments;
 mod shape;
 
 pub use piece::{Frame, MAX_TENSOR_BYTES, Span, position_error, position_steps, product_steps};
+pub use reach::Reach;
 pub use segments::{CurveIndex, Segment};
 pub use shape::{IndexedCurve, IndexedSurface, Poll};
 
-pub use patches::{Patch, SurfaceIndex, side};
+pub use patch::{Patch, side};
+pub use patches::SurfaceIndex;

@@ -18,7 +18,7 @@ use super::proof::{Proof, Site};
 use crate::bezier::Bidegree;
 use crate::bounds::{HALF_ULP, Vector, dot, norm};
 use crate::coefficients::{Differences, Grid};
-use crate::index::{Patch, product_steps};
+use crate::index::{Patch, Reach, product_steps};
 use crate::jet::{BezierPatch, Jet2};
 use crate::knots::MAX_DEGREE;
 use crate::refine::{Method, foot_on_surface};
@@ -59,6 +59,8 @@ pub struct Sheet<'a> {
     pub edge_grids: &'a [Grid; 2],
     /// Local iteration.
     pub method: Method,
+    /// How far normals may be followed, where a foot may settle the search.
+    pub reach: Option<&'a Reach>,
     /// Boxes after which the patch is put off.
     pub patience: u64,
 }
@@ -390,7 +392,7 @@ impl Walk<'_, '_, '_> {
 
     fn iterate(&mut self, range: [f64; 4], start: [f64; 2]) -> ([f64; 2], Jet2) {
         let surface = (self.sheet.net, self.sheet.query);
-        let piece = self.sheet.piece;
+        let (piece, before) = (self.sheet.piece, self.proof.best);
         let mut found = match &mut self.proof.trace {
             None => foot_on_surface(&surface, start, range, self.sheet.method, None),
             Some(watch) => {
@@ -414,6 +416,9 @@ impl Walk<'_, '_, '_> {
             self.proof.cut_off(Site { piece, at });
         }
         self.proof.keep(Site { piece, at }, &jet);
+        if self.proof.best < before {
+            self.settle(Site { piece, at }, &jet);
+        }
         (at, jet)
     }
 

@@ -68,6 +68,8 @@ pub struct Proof<'t> {
     pub target_squared: f64,
     /// Least bound of all boxes that were given up.
     pub lower: f64,
+    /// A bound of everything that the best foot itself gave (see `settle`): there is no other foot within the window.
+    pub settled: Option<f64>,
     /// Greatest displacement of the nets visited (collapsed edges made exact).
     pub spread: f64,
     /// Boxes looked at, of `budget`.
@@ -107,6 +109,7 @@ impl<'t> Proof<'t> {
             target: f64::INFINITY,
             target_squared: f64::INFINITY,
             lower: f64::INFINITY,
+            settled: None,
             spread: 0.0,
             spent: 0,
             valleys: (0, 0),
@@ -294,9 +297,9 @@ impl<'t> Proof<'t> {
         dot(move_, move_) > self.apart_squared()
     }
 
-    /// Whether nothing is left to prove: every shape is at least zero away.
+    /// Whether nothing is left to prove: every shape is at least zero away, or the foot has shown itself alone.
     pub fn is_trivial(&self) -> bool {
-        self.target == 0.0
+        self.target == 0.0 || self.settled.is_some()
     }
 
     /// Gives up a part of the shape whose distance is at least `bound`.
@@ -316,7 +319,8 @@ impl<'t> Proof<'t> {
 
     /// The bound proven by a walk that ended.
     pub fn proven(&self) -> f64 {
-        (self.target.min(self.lower) - self.spread).max(0.0)
+        let bound = self.settled.unwrap_or(self.target.min(self.lower));
+        (bound - self.spread).max(0.0)
     }
 }
 

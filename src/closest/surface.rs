@@ -8,6 +8,7 @@ use super::elementary::raise;
 use super::local::{LOCAL_FLAGS, WholeSurface, surface_start};
 use super::patch::{Far, PatchMemory, Sheet, search_patch};
 use super::proof::{Proof, Site, Watch, note_loose};
+use super::settle::settle;
 use super::within::{Within, nothing_within};
 use super::{
     FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, far_foot, first_limit,
@@ -16,7 +17,7 @@ use super::{
 };
 use crate::bounds::{HALF_ULP, Vector, norm, sub};
 use crate::error::Error;
-use crate::index::{IndexedSurface, Span, SurfaceIndex, position_error, position_steps};
+use crate::index::{IndexedSurface, Reach, Span, SurfaceIndex, position_error, position_steps};
 use crate::refine::{Method, Trace, foot_on_surface};
 
 /// Boxes that one patch may take before the others have had their turn: a difficult patch that does not even
@@ -155,7 +156,9 @@ impl IndexedSurface {
         let budget = if options.budget > 0 { options.budget } else { default_budget(coefficients) };
         let whole = self.whole(index, query, floor);
         let range = self.range(options);
-        let search = SurfaceSearch { index, whole, query: q, range, options, steps };
+        // Where only what is nearer than another shape counts, a foot of this one settles nothing.
+        let reach = index.reach.as_ref().filter(|_| within.is_none());
+        let search = SurfaceSearch { index, reach, whole, query: q, range, options, steps };
         if !traced && let Some(mut foot) = self.elementary(index, query, &search, (gap, allowed)) {
             foot.flags |= if hint.is_some() { flag::HINT_USED } else { 0 };
             return foot;
@@ -196,7 +199,9 @@ impl IndexedSurface {
             self.settle_grain(index, query, &search, &mut foot, &proof, allowed);
         }
         let flat = proof.flat.or_else(|| search.flat_at_border(site));
-        if flat.is_some_and(|v| search.is_continuum(site, v, &proof)) {
+        if proof.settled.is_some() {
+            foot.iterations = proof.evaluations;
+        } else if flat.is_some_and(|v| search.is_continuum(site, v, &proof)) {
             foot.flags |= flag::CONTINUUM | flag::TIE;
         } else {
             foot.flags |= search.ties(workspace, &mut proof);
@@ -244,6 +249,7 @@ impl IndexedSurface {
 /// One global search on a surface.
 struct SurfaceSearch<'a> {
     index: &'a SurfaceIndex,
+    reach: Option<&'a Reach>,
     /// The surface and the query as the caller has them.
     whole: WholeSurface<'a>,
     query: Vector,
@@ -448,6 +454,10 @@ impl SurfaceSearch<'_> {
         proof.evaluations += taken;
         proof.offer(Site { piece: k, at }, jet.d, || jet.flat_direction());
         proof.keep(Site { piece: k, at }, &jet);
+        let patch = &self.index.patches[k];
+        let (rational, p, q) = (self.index.rational, norm(view.1), norm(self.query));
+        let position = position_error(self.steps, rational, patch.radius, p, q);
+        settle(self.reach, Site { piece: k, at }, &jet, position, self.index.degree, proof);
     }
 
     fn walk_once(&self, workspace: &mut Workspace, proof: &mut Proof) {
@@ -530,6 +540,7 @@ impl SurfaceSearch<'_> {
             grid,
             edge_grids: &self.index.edge_grids,
             method: self.options.method,
+            reach: self.reach,
             patience,
         };
         search_patch(&sheet, memory, proof)

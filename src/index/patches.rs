@@ -3,7 +3,9 @@
 mod blocks;
 mod build;
 
-use super::piece::{Frame, Span, tensor_len};
+use super::patch::Patch;
+use super::piece::{Frame, tensor_len};
+use super::reach::{Cell, Raster, Reach};
 use crate::analytic::Analytic;
 use crate::bezier::Bidegree;
 use crate::bounds::{Vector, sub};
@@ -15,50 +17,8 @@ use crate::surface::Surface;
 use crate::tree::Tree;
 pub use blocks::HUGE;
 use blocks::{Blocks, Store};
-use build::Plan;
+use build::{Keep, Plan};
 use std::sync::Arc;
-
-/// A collapsed edge whose poles spread by more than this share of the box diagonal is searched as the tiny edge
-/// that it is; below it, the poles are made to coincide, at the price of that much in every bound.
-pub const MOST_SPREAD: f64 = 1e-12;
-
-/// The four sides of a patch, as indices of its `border` and `collapsed` arrays.
-pub mod side {
-    /// s = 0.
-    pub const S0: usize = 0;
-    /// s = 1.
-    pub const S1: usize = 1;
-    /// t = 0.
-    pub const T0: usize = 2;
-    /// t = 1.
-    pub const T1: usize = 3;
-}
-
-/// One Bezier patch; its numbers are in [`SurfaceIndex`]'s arrays.
-#[derive(Clone, Debug)]
-pub struct Patch {
-    /// Parameters of s.
-    pub u: Span,
-    /// Parameters of t.
-    pub v: Span,
-    /// Origin of the patch's coordinates, in the index's coordinates.
-    pub center: Vector,
-    /// Greatest distance of a pole from `center`.
-    pub radius: f64,
-    /// Whether a least distance may sit on this side with a gradient: a border of the domain or a C0 knot line.
-    pub border: [bool; 4],
-    /// Whether this side is a collapsed edge; its poles then coincide exactly (see `spread`).
-    pub collapsed: [bool; 4],
-    /// How far the net was moved to make its collapsed edges exact.
-    pub spread: f64,
-}
-
-impl Patch {
-    /// Whether one of its sides is a collapsed edge.
-    pub fn has_collapsed(&self) -> bool {
-        self.collapsed != [false; 4]
-    }
-}
 
 /// Search structure of a surface.
 #[derive(Debug)]
@@ -81,6 +41,9 @@ pub struct SurfaceIndex {
     pub collapsed: [bool; 4],
     /// The elementary surface that this one is, if it is one.
     pub analytic: Option<Box<Analytic>>,
+    /// How far normals may be followed; without it nothing is known of that.
+    pub reach: Option<Reach>,
+    cells: (Vec<Cell>, Raster),
     numbers: Store,
     /// The coefficient arrays of its patches.
     pub grid: Grid,
@@ -102,9 +65,10 @@ impl SurfaceIndex {
         poll: &mut dyn FnMut() -> bool,
     ) -> Result<Self, Error> {
         let plan = Plan::new(surface.clone());
+        let raster = plan.raster.clone();
         let (degree, rational, columns) = (plan.degree, plan.rational, plan.columns);
         let (frame, is_huge) = (plan.frame, plan.count() > huge);
-        let all = plan.build(!is_huge, poll)?;
+        let all = plan.build(if is_huge { Keep::Places } else { Keep::All }, poll)?;
         let numbers = if is_huge {
             Store::Blocks(Box::new(Blocks::new(plan)?))
         } else {
@@ -120,11 +84,25 @@ impl SurfaceIndex {
             closed: [surface.is_closed_u(), surface.is_closed_v()],
             collapsed: surface.collapsed_edges(),
             analytic: None,
+            reach: None,
+            cells: (all.cells, raster),
             numbers,
             grid: Grid::new(degree, rational, level),
             edge_grids: [degree.s, degree.t]
                 .map(|t| Grid::new(Bidegree { s: 0, t }, rational, level)),
         })
+    }
+
+    /// Makes [`Self::reach`], once, of what building left for it.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`], [`Error::Cancelled`].
+    pub fn measure_reach(&mut self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error> {
+        let (cells, raster) = std::mem::take(&mut self.cells);
+        if self.analytic.is_none() {
+            self.reach = Some(Reach::new(&cells, &self.patches, raster, poll)?);
+        }
+        Ok(())
     }
 
     /// Patch `k`'s poles.
@@ -167,5 +145,6 @@ impl SurfaceIndex {
             + self.grid.memory()
             + self.edge_grids.iter().map(Grid::memory).sum::<usize>()
             + self.analytic.as_ref().map_or(0, |analytic| analytic.memory())
+            + self.reach.as_ref().map_or(0, Reach::memory)
     }
 }

@@ -159,6 +159,7 @@ impl IndexedSurface {
             if !self.general {
                 index.recognise();
             }
+            index.measure_reach(poll)?;
             Ok(index)
         })
     }

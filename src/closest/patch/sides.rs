@@ -3,6 +3,7 @@
 use super::super::collapsed::{along, rational_slope_extent, slope_extent};
 use super::super::line::{Given, Line, Source, search_line};
 use super::super::proof::Site;
+use super::super::settle::settle;
 use super::{Area, Walk};
 use crate::bezier::{cut_2d, isocurve};
 use crate::bounds::extent;
@@ -86,8 +87,22 @@ impl Walk<'_, '_, '_> {
         let c = if rational { &c[..] } else { &[] };
         let source = Source::Products(n, c);
         let given = Given { source, error: area.error, radius: area.radius, foot: None };
+        let before = self.proof.best;
         search_line(&line, &given, &mut self.memory.line, self.proof);
         self.memory.edge = memory;
+        if let (Some(best), Some(_)) = (self.proof.site, self.sheet.reach)
+            && self.proof.best < before
+        {
+            let jet = self.sheet.net.jet(best.at[0], best.at[1], self.sheet.query);
+            self.proof.evaluations += 1;
+            self.settle(best, &jet);
+        }
+    }
+
+    /// See [`settle`].
+    pub(super) fn settle(&mut self, site: Site, jet: &Jet2) {
+        let (reach, degree) = (self.sheet.reach, self.sheet.net.degree);
+        settle(reach, site, jet, self.sheet.position, degree, self.proof);
     }
 
     /// Index of product coefficient `i` along side `k`.

@@ -11,7 +11,7 @@
 
 use std::sync::OnceLock;
 
-use super::build::Plan;
+use super::build::{Keep, Plan};
 use crate::error::Error;
 use crate::jet::Lane;
 
@@ -106,7 +106,7 @@ impl Blocks {
     fn make(&self, at: usize) -> &Numbers {
         let range = at * BLOCK..((at + 1) * BLOCK).min(self.plan.count());
         let room = range.len();
-        let part = self.plan.part(range, room, true, &mut || false);
+        let part = self.plan.part(range, room, Keep::Numbers, &mut || false);
         let numbers = Box::new(part.expect("memory for 16 patches of the index").numbers);
         self.made[at].get_or_init(|| numbers)
     }

@@ -1,14 +1,15 @@
 //! Building the patches of a surface: extraction, balance of weights, collapsed edges; by all cores when there are many.
 
 use super::blocks::Numbers;
-use super::{MOST_SPREAD, Patch};
 use crate::bezier::{Bidegree, extraction};
 use crate::bounds::{Aabb, HALF_ULP, Vector, add, extent, norm, sub};
 use crate::error::Error;
+use crate::index::patch::{MOST_SPREAD, Patch};
 use crate::index::piece::{
     Frame, LocalNet, MAX_TENSOR_BYTES, Span, balance_for, parts_for, position_steps,
     power_of_two_over, push_tensors, reserved, tensor_len,
 };
+use crate::index::reach::{Cell, Raster, push_cells};
 use crate::index::segments::pieces;
 use crate::jet::lanes;
 use crate::knots::Knots;
@@ -67,6 +68,8 @@ pub struct Plan {
     pub rational: bool,
     /// As of the index.
     pub columns: usize,
+    /// The cells of all patches.
+    pub raster: Raster,
     keep_tensors: bool,
     /// Collapsed edges whose poles are made to coincide, and where.
     exact: [bool; 4],
@@ -82,13 +85,25 @@ pub struct Made {
     pub numbers: Numbers,
     /// Their boxes.
     pub boxes: Vec<Aabb>,
+    /// Their cells.
+    pub cells: Vec<Cell>,
+}
+
+/// What is kept of the patches made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Keep {
+    /// Everything.
+    All,
+    /// All but the numbers.
+    Places,
+    /// All but the cells.
+    Numbers,
 }
 
 struct Builder<'a> {
     plan: &'a Plan,
     made: Made,
-    /// Whether the numbers stay.
-    keep: bool,
+    keep: Keep,
 }
 
 impl Plan {
@@ -106,7 +121,21 @@ impl Plan {
         let is_exact = |k: usize| surface.collapsed_spread(k) <= MOST_SPREAD * frame.diagonal;
         let exact = [0, 1, 2, 3].map(|k| collapsed[k] && is_exact(k));
         let points = collapsed_points(&surface, exact).map(|point| frame.enter(point));
-        Self { surface, u, v, frame, degree, rational, columns, keep_tensors, exact, points }
+        let spans = [&u, &v].map(|way| way.spans.iter().map(|span| span.0).collect::<Vec<_>>());
+        let raster = Raster::new(&surface, [&spans[0], &spans[1]]);
+        Self {
+            surface,
+            u,
+            v,
+            frame,
+            degree,
+            rational,
+            columns,
+            raster,
+            keep_tensors,
+            exact,
+            points,
+        }
     }
 
     /// Number of patches.
@@ -119,12 +148,12 @@ impl Plan {
         self.u.memory() + self.v.memory()
     }
 
-    /// Makes all patches, with their numbers or without. Errors as of the index.
-    pub fn build(&self, numbers: bool, poll: &mut dyn FnMut() -> bool) -> Result<Made, Error> {
+    /// Makes all patches. Errors as of the index.
+    pub fn build(&self, keep: Keep, poll: &mut dyn FnMut() -> bool) -> Result<Made, Error> {
         let count = self.count();
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         if count < MANY || cores == 1 {
-            return self.part(0..count, count, numbers, poll);
+            return self.part(0..count, count, keep, poll);
         }
         let (size, stop) = (count.div_ceil(cores), AtomicBool::new(false));
         let range = |k: usize| (k * size).min(count)..((k + 1) * size).min(count);
@@ -133,11 +162,11 @@ impl Plan {
                 .map(|k| {
                     let mut poll = || stop.load(Ordering::Relaxed);
                     let (range, task) = (range(k), self);
-                    let work = move || task.part(range.clone(), range.len(), numbers, &mut poll);
+                    let work = move || task.part(range.clone(), range.len(), keep, &mut poll);
                     (k, std::thread::Builder::new().spawn_scoped(scope, work))
                 })
                 .collect();
-            let mut all = self.part(range(0), count, numbers, poll);
+            let mut all = self.part(range(0), count, keep, poll);
             if all.is_err() {
                 stop.store(true, Ordering::Relaxed);
             }
@@ -145,7 +174,7 @@ impl Plan {
                 // A thread that could not be started leaves its share to this one.
                 let part = match other {
                     Ok(thread) => thread.join().unwrap_or_else(|panic| resume_unwind(panic)),
-                    Err(_) => self.part(range(k), range(k).len(), numbers, poll),
+                    Err(_) => self.part(range(k), range(k).len(), keep, poll),
                 };
                 if let Ok(made) = &mut all {
                     match part {
@@ -163,15 +192,21 @@ impl Plan {
         &self,
         range: Range<usize>,
         room: usize,
-        numbers: bool,
+        keep: Keep,
         poll: &mut dyn FnMut() -> bool,
     ) -> Result<Made, Error> {
         let count = self.degree.count();
         let width = count * if self.rational { 4 } else { 3 };
         let tensors = if self.keep_tensors { tensor_len(self.degree, self.rational) } else { 0 };
         // Without the numbers there is room for those of one patch.
-        let nets = if numbers { room } else { 1 };
-        let kept = if numbers { room } else { 0 };
+        let nets = if keep == Keep::Places { 1 } else { room };
+        let kept = if keep == Keep::Places { 0 } else { room };
+        let split = |k: usize| self.raster.split([k / self.columns, k % self.columns]);
+        let cells = match keep {
+            Keep::Numbers => 0,
+            _ if room > range.len() => self.raster.cells_to(self.u.spans.len() - 1),
+            _ => range.clone().map(|k| split(k)[0] * split(k)[1]).sum(),
+        };
         let made = Made {
             patches: reserved(room)?,
             numbers: Numbers {
@@ -180,8 +215,9 @@ impl Plan {
                 tensors: reserved(kept * tensors)?,
             },
             boxes: reserved(room)?,
+            cells: reserved(cells)?,
         };
-        let mut builder = Builder { plan: self, made, keep: numbers };
+        let mut builder = Builder { plan: self, made, keep };
         for (done, k) in range.enumerate() {
             if done % GROUP == GROUP - 1 && poll() {
                 return Err(Error::Cancelled);
@@ -213,6 +249,7 @@ impl Made {
         self.patches.append(&mut other.patches);
         self.numbers.append(other.numbers);
         self.boxes.append(&mut other.boxes);
+        self.cells.append(&mut other.cells);
     }
 }
 
@@ -252,9 +289,21 @@ impl Builder<'_> {
         self.visit_poles(start, |_, _, pole, _| aabb.include(add(net.center, pole)));
         let margin = position_steps(plan.degree.s + plan.degree.t) * net.radius + 8.0 * HALF_ULP;
         let margin = margin + patch.spread;
+        if self.keep != Keep::Numbers {
+            let poles = &self.made.numbers.nets[start..];
+            let (degree, rational) = (plan.degree, plan.rational);
+            push_cells(
+                poles,
+                degree,
+                rational,
+                &patch,
+                plan.raster.split([a, b]),
+                &mut self.made.cells,
+            );
+        }
         self.made.patches.push(patch);
         self.made.boxes.push(aabb.grown(margin));
-        if !self.keep {
+        if self.keep == Keep::Places {
             self.made.numbers.nets.truncate(start);
             return;
         }
@@ -403,10 +452,10 @@ mod tests {
         let surface = wavy(66);
         let (plan, count) = (Plan::new(Arc::new(surface)), 66 * 66);
         assert!(count >= MANY);
-        let whole = plan.part(0..count, count, true, &mut || false).unwrap();
-        let built = plan.build(true, &mut || false).unwrap();
-        let mut joined = plan.part(0..1000, count, true, &mut || false).unwrap();
-        joined.append(plan.part(1000..count, 0, true, &mut || false).unwrap());
+        let whole = plan.part(0..count, count, Keep::All, &mut || false).unwrap();
+        let built = plan.build(Keep::All, &mut || false).unwrap();
+        let mut joined = plan.part(0..1000, count, Keep::All, &mut || false).unwrap();
+        joined.append(plan.part(1000..count, 0, Keep::All, &mut || false).unwrap());
         for other in [built, joined] {
             assert_eq!((&whole.numbers, &whole.boxes), (&other.numbers, &other.boxes));
             let centers = |made: &Made| -> Vec<_> {
@@ -420,8 +469,8 @@ mod tests {
     fn blocks_hold_the_bits_of_the_whole() {
         let surface = Arc::new(wavy(66));
         let (plan, count) = (Plan::new(surface.clone()), 66 * 66);
-        let whole = plan.build(true, &mut || false).unwrap();
-        let bare = plan.build(false, &mut || false).unwrap();
+        let whole = plan.build(Keep::All, &mut || false).unwrap();
+        let bare = plan.build(Keep::Places, &mut || false).unwrap();
         assert_eq!(whole.boxes, bare.boxes);
         assert!(bare.numbers.nets.is_empty() && bare.numbers.tensors.is_empty());
         let blocks = Store::Blocks(Box::new(Blocks::new(plan).unwrap()));
@@ -446,7 +495,7 @@ mod tests {
     #[test]
     fn building_stops_when_asked_to() {
         let surface = wavy(66);
-        let stopped = Plan::new(Arc::new(surface)).build(true, &mut || true);
+        let stopped = Plan::new(Arc::new(surface)).build(Keep::All, &mut || true);
         assert_eq!(stopped.err(), Some(Error::Cancelled));
     }
 }

@@ -1,0 +1,92 @@
+//! The proof at once: the foot's normal is short enough that nothing else on the surface can be as near.
+
+use super::certificate::slope_error;
+use super::proof::{Proof, Site};
+use crate::bezier::Bidegree;
+use crate::bounds::{HALF_ULP, cross, dot, norm, scaled, sub};
+use crate::index::Reach;
+use crate::jet::Jet2;
+
+/// What must be left of `1 - 2 a K`: less says too little of feet that tie.
+const LEAST_ROOM: f64 = 0.0625;
+
+/// Notes in the proof when its best foot, found just now with this jet, shows that nothing else is as near (see
+/// [`Reach`]); `position`: how far its point may be off.
+pub fn settle(
+    reach: Option<&Reach>,
+    site: Site,
+    jet: &Jet2,
+    position: f64,
+    degree: Bidegree,
+    proof: &mut Proof,
+) {
+    if let (Some(reach), true) = (reach, proof.site == Some(site)) {
+        let bound = bound(reach, site, jet, position, [degree.s, degree.t]);
+        // Not where the iteration has left more than the gap; a bound that there was holds on.
+        proof.settled = bound.filter(|b| *b >= norm(jet.d) - proof.gap).or(proof.settled);
+    }
+}
+
+/// A lower bound of the distance to the whole surface, if the place of the jet gives one.
+///
+/// With `q - f = a N + b o + e` (o the outward conormal, where the place is on a side of the surface, b >= 0):
+/// `|x - q|^2 >= |q - f|^2 + r^2 room - 2 |e| r` for `r = |x - f|` and `room = 1 - 2 (|a| K + b K_o)`, so the square is less
+/// than that of the foot by `|e|^2 / room` at most.
+fn bound(
+    reach: &Reach,
+    Site { piece: k, at }: Site,
+    jet: &Jet2,
+    position: f64,
+    degrees: [usize; 2],
+) -> Option<f64> {
+    let d = norm(jet.d);
+    let normal = cross(jet.s, jet.t);
+    let tangents = [jet.s, jet.t];
+    let (w, speeds) = (jet.w[0], tangents.map(norm));
+    // `slope_error` bounds more than the rounding of the product of d with a derivative, times w^2.
+    let slacks =
+        [0, 1].map(|k| slope_error(d, speeds[k], w, position, degrees[k]) / (w * w * speeds[k]));
+    // How far along a tangent the query is.
+    let aside = |k: usize| dot(jet.d, tangents[k]).abs() / speeds[k] + slacks[k];
+    let (across, along) = (norm(normal) / speeds[1], norm(normal) / speeds[0]);
+    let turned = 4.0 * (slacks[0] * speeds[0] / across + slacks[1] * speeds[1] / along);
+    let off = position + 1e-9 * d + turned;
+    // The jet looks from the query to the foot.
+    let height = -dot(jet.d, normal) / norm(normal);
+    let [above, below] = reach.bend(k, at);
+    let bend = if height > off {
+        above
+    } else if height < -off {
+        below
+    } else {
+        above.max(below)
+    };
+    let sides = reach.sides(k, at);
+    let (asked, lost) = match (0..4).find(|&side| sides[side]) {
+        None => {
+            let angle = 1.0 - dot(jet.s, jet.t).abs() / (speeds[0] * speeds[1]);
+            let (a, b) = (aside(0), aside(1));
+            ((d + position) * bend, (a * a + b * b) / (angle * (1.0 - 1e-9)))
+        }
+        Some(side) => {
+            let (across, along) = (tangents[side / 2], tangents[1 - side / 2]);
+            let rest = sub(across, scaled(along, dot(across, along) / dot(along, along)));
+            let out = dot(jet.d, rest) / norm(rest) * if side % 2 == 0 { 1.0 } else { -1.0 };
+            let corner = (side + 1..4).any(|other| sides[other]);
+            if out.is_nan() || out < 0.0 || corner {
+                return None;
+            }
+            // An outward part that may be none may also be an inward one.
+            let a = aside(1 - side / 2) + if out < off { 2.0 * off } else { 0.0 };
+            ((height.abs() + off) * bend + (out + off) * reach.rim(k, at, side), a * a)
+        }
+    };
+    let room = 1.0 - 2.0 * asked * (1.0 + 1e-12);
+    if room.is_nan() || room < LEAST_ROOM {
+        return None;
+    }
+    let square = (d - position).max(0.0) * (1.0 - 8.0 * HALF_ULP);
+    let bound = (square * square - lost / room).max(0.0).sqrt() * (1.0 - 4.0 * HALF_ULP);
+    // Not where the tangents vanish or agree.
+    lost.is_finite().then_some(bound)
+}

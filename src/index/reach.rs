@@ -1,0 +1,149 @@
+//! How far from a surface its normals may be followed before another part of it can be as near.
+//!
+//! For a place f with unit normal N the ball through f around f + a N holds no other point x of the surface when
+//!
+//! ```text
+//!   N.(x - f) <= K |x - f|^2   for all x,   and   2 a K <= 1
+//! ```
+//!
+//! and then |x - q|^2 >= a^2 + (1 - 2 a K) |x - f|^2 for q = f + a N: f is the only nearest point. The least such K is half the
+//! inverse of the reach at f (Federer, *Curvature measures*, 1959, theorem 4.8). Here it is bounded for all f in a cell of
+//! a patch, for both sides, against the whole surface:
+//!
+//! - x in the block of cells around, where the surface is C1: both sides are integrals along the segment between the
+//!   parameters, of the second derivatives along N and of the first ones;
+//! - x elsewhere: from boxes around cells and groups of cells, and the cone of the normals.
+//!
+//! For f on a side of the surface the same is bounded for its outward conormal. What lies across a C0 line or a seam is at
+//! distance zero of what is beside it: there K is infinite, and the search has to do without. `docs/rounding.md`, section
+//! 21, has the proof.
+
+mod cell;
+mod field;
+mod oriented;
+mod raster;
+
+use super::patch::Patch;
+use super::piece::reserved;
+use crate::error::Error;
+pub use cell::{Cell, push_cells};
+use field::Field;
+pub use raster::Raster;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// Cells of a piece of work, and pieces from which on all cores work.
+const TILE: usize = 256;
+const MANY: usize = 16;
+
+/// Bounds are rounded up by this share.
+const MARGIN: f64 = 1.0 + 1e-6;
+
+/// The bounds K of all cells.
+#[derive(Clone, Debug, Default)]
+pub struct Reach {
+    raster: Raster,
+    columns: usize,
+    /// Of a cell, row by row: for queries on the side of the normal, and on the other.
+    bends: Vec<[f32; 2]>,
+    /// Of the cells along the sides of the surface: for their outward conormals.
+    rims: [Vec<f32>; 4],
+}
+impl Reach {
+    /// From the cells of all patches, in their order; `poll` is asked now and then whether to stop. All cores work on many
+    /// cells; the bits do not depend on them.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`], [`Error::Cancelled`].
+    pub fn new(
+        cells: &[Cell],
+        patches: &[Patch],
+        raster: Raster,
+        poll: &mut dyn FnMut() -> bool,
+    ) -> Result<Self, Error> {
+        let field = Field::new(cells, patches, &raster)?;
+        let mut bends = reserved(cells.len())?;
+        bends.resize(cells.len(), [f32::INFINITY; 2]);
+        let columns = field.size[1];
+        let mut tiles = reserved(cells.len().div_ceil(TILE))?;
+        tiles.extend(bends.chunks_mut(TILE).map(|tile| Mutex::new(Some(tile))));
+        let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
+        let work = |poll: &mut dyn FnMut() -> bool| {
+            loop {
+                let k = next.fetch_add(1, Ordering::Relaxed);
+                if stop.load(Ordering::Relaxed) || k >= tiles.len() {
+                    return;
+                }
+                if poll() {
+                    return stop.store(true, Ordering::Relaxed);
+                }
+                let tile = tiles[k].lock().unwrap_or_else(PoisonError::into_inner).take();
+                for (n, bend) in tile.into_iter().flatten().enumerate() {
+                    let at = k * TILE + n;
+                    let found = field.bend([at / columns, at % columns]);
+                    *bend = found.map(|x| ((x * MARGIN) as f32).next_up());
+                }
+            }
+        };
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        std::thread::scope(|scope| {
+            for _ in 1..if tiles.len() < MANY { 1 } else { cores } {
+                // A thread that could not be started leaves its share to the others.
+                let _ = std::thread::Builder::new().spawn_scoped(scope, || work(&mut || false));
+            }
+            work(poll);
+        });
+        if stop.load(Ordering::Relaxed) {
+            return Err(Error::Cancelled);
+        }
+        let mut rims: [Vec<f32>; 4] = Default::default();
+        for (side, list) in rims.iter_mut().enumerate() {
+            let (k, size) = (side / 2, field.size);
+            *list = reserved(size[1 - k])?;
+            for n in 0..size[1 - k] {
+                let mut place = [n; 2];
+                place[k] = if side % 2 == 0 { 0 } else { size[k] - 1 };
+                list.push(((field.rim(place, side) * MARGIN) as f32).next_up());
+            }
+        }
+        let columns = raster.starts[1].len() - 1;
+        Ok(Self { raster, columns, bends, rims })
+    }
+
+    /// The row and column of a patch.
+    fn patch(&self, k: usize) -> [usize; 2] {
+        let (k, columns) = (k as u32, self.columns as u32);
+        [(k / columns) as usize, (k % columns) as usize]
+    }
+
+    /// K for queries on the side of the normal, and on the other, at a place of patch `k`.
+    pub fn bend(&self, k: usize, at: [f64; 2]) -> [f64; 2] {
+        let [i, j] = self.raster.cell(self.patch(k), at);
+        let width = self.raster.starts[1][self.columns] as usize;
+        self.bends[i * width + j].map(f64::from)
+    }
+
+    /// The sides of the surface (as in `side`) on which a place of patch `k` lies.
+    pub fn sides(&self, k: usize, at: [f64; 2]) -> [bool; 4] {
+        let patch = self.patch(k);
+        let last = self.raster.starts.each_ref().map(|list| list.len() - 2);
+        [0, 1, 2, 3].map(|side| {
+            let d = side / 2;
+            let end = if side % 2 == 0 { 0 } else { last[d] };
+            patch[d] == end && at[d] == (side % 2) as f64
+        })
+    }
+
+    /// K for the outward conormal in place of the normal, at a place of patch `k` on side `side` of the surface.
+    pub fn rim(&self, k: usize, at: [f64; 2], side: usize) -> f64 {
+        let cell = self.raster.cell(self.patch(k), at);
+        f64::from(self.rims[side][cell[1 - side / 2]])
+    }
+
+    /// Bytes held.
+    pub fn memory(&self) -> usize {
+        self.raster.memory()
+            + self.bends.capacity() * size_of::<[f32; 2]>()
+            + self.rims.iter().map(|list| list.capacity() * size_of::<f32>()).sum::<usize>()
+    }
+}

@@ -1,0 +1,127 @@
+//! The bounds by which a foot settles a search, against places all over the surface.
+
+#[path = "cases/mod.rs"]
+#[allow(dead_code, reason = "surfaces only")]
+mod cases;
+
+use cases::{Case, Shape};
+use footpoint::bounds::{Vector, cross, dot, norm, scaled, sub};
+use footpoint::index::IndexedSurface;
+
+/// Places on each surface whose bounds are checked, and places that each is checked against, all over and near by.
+const PLACES: usize = 40;
+const OTHERS: usize = 250;
+const NEAR: usize = 50;
+
+/// Numbers in [0, 1) that are the same every time.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+/// A place in the index's coordinates, with its unit normal and its outward conormal for a side.
+struct Place {
+    point: Vector,
+    normal: Vector,
+    outward: [Vector; 4],
+}
+
+fn place(shape: &IndexedSurface, u: f64, v: f64) -> Place {
+    let mut jet = [[0.0; 3]; 3];
+    shape.surface().partials(u, v, 1, &mut jet);
+    let index = shape.index(&mut || false).unwrap();
+    let unit = |x: Vector| scaled(x, 1.0 / norm(x));
+    let away = |a: Vector, b: Vector| unit(sub(a, scaled(b, dot(a, b) / dot(b, b))));
+    let (across_u, across_v) = (away(jet[1], jet[2]), away(jet[2], jet[1]));
+    Place {
+        point: index.frame.enter(jet[0]),
+        normal: unit(cross(jet[1], jet[2])),
+        outward: [scaled(across_u, -1.0), across_u, scaled(across_v, -1.0), across_v],
+    }
+}
+
+/// Checks `direction.(x - f) <= bound |x - f|^2`; `rounding`: of the points.
+fn check(name: &str, direction: Vector, from: Vector, to: Vector, bound: f64, rounding: f64) {
+    let e = sub(to, from);
+    let (rise, square) = (dot(direction, e), dot(e, e));
+    let rounding = rounding + 1e-13 * norm(e);
+    let is_held = bound == f64::INFINITY || rise <= bound * square + rounding;
+    assert!(is_held, "{name}: {rise} > {bound} * {square} from {from:?}");
+}
+
+/// Checks some places of a surface; how many of their bounds say something.
+fn look_at(case: &Case, shape: &IndexedSurface, random: &mut Random) -> [usize; 2] {
+    let name = &case.name;
+    let rounding = 1e-14 * (1.0 + case.magnitude / case.diagonal);
+    let index = shape.index(&mut || false).unwrap();
+    let Some(reach) = &index.reach else { return [0, 0] };
+    let [u0, u1, v0, v1] = shape.surface().domain();
+    let mut finite = 0;
+    for n in 0..PLACES {
+        let (a, b) = (random.next(), random.next());
+        // A third of them on the sides.
+        let side = (n % 3 == 0).then_some(n / 3 % 4);
+        let [a, b] = match side {
+            Some(0) => [0.0, b],
+            Some(1) => [1.0, b],
+            Some(2) => [a, 0.0],
+            Some(_) => [a, 1.0],
+            None => [a, b],
+        };
+        let mix =
+            |x: f64, low: f64, high: f64| if x == 1.0 { high } else { low + x * (high - low) };
+        let (u, v) = (mix(a, u0, u1), mix(b, v0, v1));
+        let k = (0..index.patches.len())
+            .find(|&k| u <= index.patches[k].u.ends[1] && v <= index.patches[k].v.ends[1])
+            .unwrap();
+        let at = [index.patches[k].u.local(u), index.patches[k].v.local(v)];
+        let bounds = reach.bend(k, at);
+        let here = place(shape, u, v);
+        if !here.normal[0].is_finite() {
+            continue;
+        }
+        let rim = side.map(|side| {
+            assert!(reach.sides(k, at)[side], "{name}: side {side} at {u} {v}");
+            (here.outward[side], reach.rim(k, at, side))
+        });
+        finite += usize::from(bounds[0].min(bounds[1]) < f64::INFINITY);
+        for m in 0..OTHERS + NEAR {
+            let (c, d) = (random.next(), random.next());
+            let (c, d) = if m < OTHERS {
+                (c, d)
+            } else {
+                let small = 0.5f64.powi((m - OTHERS) as i32 / 2 + 2);
+                ((a + small * (c - 0.5)).clamp(0.0, 1.0), (b + small * (d - 0.5)).clamp(0.0, 1.0))
+            };
+            let there = shape.surface().evaluate(mix(c, u0, u1), mix(d, v0, v1));
+            let there = index.frame.enter(there);
+            check(name, here.normal, here.point, there, bounds[0], rounding);
+            check(name, scaled(here.normal, -1.0), here.point, there, bounds[1], rounding);
+            if let Some((outward, bound)) = rim {
+                check(name, outward, here.point, there, bound, rounding);
+            }
+        }
+    }
+    [finite, PLACES]
+}
+
+#[test]
+fn no_place_of_the_cases_lies_in_a_ball_that_a_bound_allows() {
+    let mut random = Random(0x666f_6f74);
+    let mut sum = [0, 0];
+    for folder in cases::folders() {
+        let case = cases::read(&folder);
+        if let Shape::Surface(shape) = &case.shape {
+            let index = shape.index(&mut || false).unwrap();
+            if index.patches.len() <= 1000 {
+                let [finite, all] = look_at(&case, shape, &mut random);
+                sum = [sum[0] + finite, sum[1] + all];
+            }
+        }
+    }
+    assert!(sum[1] == 0 || 4 * sum[0] > sum[1], "{sum:?}");
+}
