@@ -22,8 +22,11 @@ const CALM: f64 = 0.2;
 /// Most cells, unless there are more patches.
 const MOST_CELLS: usize = 1 << 19;
 
-/// Work that rational cells may take, in squares of their number of poles: their bounds are products of nets.
-const MOST_WORK: usize = 1 << 28;
+/// Work that the cells of a surface may take, about, in multiplications: a tenth of a second for each 2^24.
+const MOST_WORK: usize = 1 << 26;
+
+/// Cells as crooked as this by a rough look are cut without the bounds.
+const ROUGHLY: f64 = 2.0 * CALM;
 
 /// Most halvings of a patch.
 const DEEPEST: u32 = 12;
@@ -174,7 +177,9 @@ impl Cells {
 /// [`Error::OutOfMemory`], [`Error::Cancelled`].
 pub fn cells_of(index: &SurfaceIndex, poll: Poll) -> Result<Cells, Error> {
     let (mut packets, mut rest, mut boxes) = (Vec::new(), Vec::new(), Vec::new());
-    let each = if index.rational { index.degree.count().pow(2) } else { 1 };
+    // Bounds of rational cells are products of nets; of the others, cutting takes the most.
+    let (count, degrees) = (index.degree.count(), index.degree.s + index.degree.t);
+    let each = if index.rational { 16 * count * count } else { 2 * count * degrees };
     let all = MOST_CELLS.min(MOST_WORK / each);
     let most = (all / index.patches.len().max(1)).max(1);
     let deepest = DEEPEST.min(most.ilog2());
@@ -192,7 +197,16 @@ pub fn cells_of(index: &SurfaceIndex, poll: Poll) -> Result<Cells, Error> {
         }
         let mut waiting = vec![([0.0, 1.0, 0.0, 1.0], 0)];
         while let Some((area, depth)) = waiting.pop() {
-            let (mut cell, aabb) = model(index, patch, area, &mut net);
+            cut(index, patch, area, &mut net);
+            let crooked = if depth == deepest {
+                None
+            } else {
+                rough(index, patch, &net).filter(|cell| cell.crookedness() > ROUGHLY)
+            };
+            let (mut cell, aabb) = match crooked {
+                Some(cell) => (cell, Aabb::EMPTY),
+                None => model(index, patch, &net),
+            };
             if depth < deepest && cell.crookedness() > CALM {
                 let [a, b] = halves(&cell, area);
                 waiting.extend([(b, depth + 1), (a, depth + 1)]);
@@ -221,19 +235,28 @@ pub fn cells_of(index: &SurfaceIndex, poll: Poll) -> Result<Cells, Error> {
     Ok(Cells { nodes, packets, rest })
 }
 
-/// The model of a part of a patch in the coordinates of the index, with its box.
-pub fn model(
-    index: &SurfaceIndex,
-    patch: usize,
-    area: [f64; 4],
-    net: &mut Vec<f64>,
-) -> (Cell, Aabb) {
-    let (of, count) = (&index.patches[patch], index.degree.count());
+/// The net of a part of a patch.
+fn cut(index: &SurfaceIndex, patch: usize, area: [f64; 4], net: &mut Vec<f64>) {
     net.clear();
     net.extend_from_slice(index.net(patch).poles);
-    for component in net.chunks_exact_mut(count) {
+    for component in net.chunks_exact_mut(index.degree.count()) {
         cut_2d(component, index.degree, [area[0], area[1]], [area[2], area[3]]);
     }
+}
+
+/// The model of a rational net as if its weights were equal: it tells where to halve, and bounds nothing.
+fn rough(index: &SurfaceIndex, patch: usize, net: &[f64]) -> Option<Cell> {
+    if !index.rational {
+        return None;
+    }
+    let count = index.degree.count();
+    let places: Vec<f64> = (0..3 * count).map(|k| net[k] / net[3 * count + k % count]).collect();
+    Some(Cell::new(&places, index.degree, false, index.patches[patch].radius))
+}
+
+/// The model of the net of a part of a patch in the coordinates of the index, with its box.
+fn model(index: &SurfaceIndex, patch: usize, net: &[f64]) -> (Cell, Aabb) {
+    let (of, count) = (&index.patches[patch], index.degree.count());
     let mut cell = Cell::new(net, index.degree, index.rational, of.radius);
     cell.off += 2.0 * of.spread + 16.0 * HALF_ULP;
     cell.middle = add(cell.middle, of.center);
