@@ -262,8 +262,10 @@ static void nonsense_is_refused_by_name(void) {
     CHECK_ERROR(fpt_fair_curve(curve, &options, &report), FPT_INVALID_ARGUMENT, "through: entry 1");
     options = fairing(1e-3), options.ends[1] = 4;
     CHECK_ERROR(fpt_fair_curve(curve, &options, &report), FPT_INVALID_ARGUMENT, "ends: entry 1");
-    options = fairing(1e-3), options.reserved = 1;
-    CHECK_ERROR(fpt_fair_curve(curve, &options, &report), FPT_INVALID_ARGUMENT, "reserved");
+    options = fairing(1e-3), options.calm = 2;
+    CHECK_ERROR(fpt_fair_curve(curve, &options, &report), FPT_INVALID_ARGUMENT, "calm");
+    options = fairing(1e-3), options.slope = -1;
+    CHECK_ERROR(fpt_fair_curve(curve, &options, &report), FPT_INVALID_ARGUMENT, "slope");
     options = fairing(1e-3), options.struct_size = 24;
     CHECK_ERROR(fpt_fair_curve(curve, &options, &report), FPT_INVALID_ARGUMENT, "struct_size");
     options = fairing(1e-3), options.should_stop = stop;
@@ -324,10 +326,11 @@ static void odd_options_never_break_anything(void) {
         if (now_and_then(&seed)) options.deviation = odd(&seed);
         if (now_and_then(&seed)) options.strain = odd(&seed);
         if (now_and_then(&seed)) options.jerk = odd(&seed);
+        if (now_and_then(&seed)) options.slope = odd(&seed);
         if (now_and_then(&seed)) options.distance = odd(&seed);
         if (now_and_then(&seed)) options.method = seed >> 30;
         if (now_and_then(&seed)) options.by_length = seed >> 30;
-        if (now_and_then(&seed)) options.reserved = seed >> 31;
+        if (now_and_then(&seed)) options.calm = seed >> 30;
         if (now_and_then(&seed)) options.ends[seed >> 31] = seed >> 29;
         if (now_and_then(&seed)) options.borders[seed >> 30] = seed >> 29;
         if (now_and_then(&seed)) options.length[0] = odd(&seed), options.length[1] = odd(&seed);

@@ -2778,7 +2778,8 @@ typedef struct fpt_fair_options {
      */
     size_t through_count;
     /**
-     * Curves: `knot_count` knots that FPT_FAIR_KNOT_REMOVAL may fair. NULL: all inner ones.
+     * Curves: `knot_count` knots that FPT_FAIR_KNOT_REMOVAL and FPT_FAIR_LOCAL may fair: of each the pole in the middle of its jump
+     * moves. NULL: all inner ones, with FPT_FAIR_LOCAL all poles.
      */
     const double *knots;
     /**
@@ -2794,13 +2795,15 @@ typedef struct fpt_fair_options {
      */
     double region[4];
     /**
-     * Steps at most; 0: the default, 60 (curves), 40 (surfaces).
+     * Solutions of the equations at most, five a step (local methods: steps, eight a pole at least); 0: the default, 300 (curves), 150
+     * (surfaces).
      */
     uint32_t steps;
     /**
-     * Must be 0.
+     * Planar curves, FPT_FAIR_ENERGY: 1: no more changes of the side to which the curve bends than the curve of least jerk by length
+     * has that the constraints allow; as much of that energy is added as this takes. 0: only the energy asked for. Default 1.
      */
-    uint32_t reserved;
+    uint32_t calm;
     /**
      * Asked on the calling thread between steps; non-zero ends the call with FPT_CANCELLED. NULL: never.
      */
@@ -2809,6 +2812,11 @@ typedef struct fpt_fair_options {
      * Handed to should_stop as it is.
      */
     void *user;
+    /**
+     * Curves, FPT_FAIR_ENERGY: weight of the integral of the squared change of the curvature vector along the arc length of the curve
+     * as it becomes: (dk/ds)^2 of planar curves, (dk/ds)^2 + k^2 tau^2 in space; finite, >= 0. Default 0.
+     */
+    double slope;
 } fpt_fair_options;
 
 /**

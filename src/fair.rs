@@ -16,6 +16,8 @@
 
 mod rows;
 
+mod slope;
+
 mod envelope;
 
 mod solve;

@@ -24,7 +24,7 @@ mod segments;
 mod shape;
 
 pub use piece::{Frame, MAX_TENSOR_BYTES, Span, position_error, position_steps, product_steps};
-pub use reach::Reach;
+pub use reach::{CurveReach, Reach};
 pub use segments::{CurveIndex, Segment};
 pub use shape::{IndexedCurve, IndexedSurface, Poll};
 

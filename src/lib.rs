@@ -75,8 +75,8 @@ pub mod intersect;
 
 pub mod march;
 
-pub mod fair;
-
 pub mod inspect;
+
+pub mod fair;
 
 mod ffi;

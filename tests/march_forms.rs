@@ -144,7 +144,7 @@ fn singular(
 #[test]
 fn crossings_and_touching_points_in_every_position() {
     use ContactKind::{Crossing, Touching};
-    let near = &motions()[..4];
+    let near = &motions();
     let (sin, cos) = (0.25f64, (1.0f64 - 0.0625).sqrt());
     let through =
         plane([-3.0 * cos, -3.1, -3.0 * sin], [6.0 * cos, 0.0, 6.0 * sin], [0.0, 6.2, 0.0]);

@@ -4,7 +4,7 @@
 mod march_shapes;
 
 use footpoint::index::IndexedSurface;
-use footpoint::march::{ContactKind, Intersection, MarchOptions, intersect};
+use footpoint::march::{ContactKind, End, Intersection, MarchOptions, intersect};
 use footpoint::surface::Surface;
 use march_shapes::{Motion, P, bumps, lid};
 
@@ -87,8 +87,12 @@ fn a_sheet_that_slides_through_tangency_never_shows_a_wrong_count() {
                         meet(&carry(&bumps(n, lift)), &carry(&lid(n, HEIGHT + shift, lift)));
                     let loops = found.branches.iter().filter(|b| b.is_closed()).count();
                     let text = format!("{name}, shift {shift:e}: {loops} loops");
-                    assert_eq!(loops, found.branches.len(), "{text}");
+                    // A piece of a loop beside what was not told apart says so.
+                    let honest = |end: &End| matches!(end, End::Undecided | End::Contact(_));
+                    let mut pieces = found.branches.iter().filter(|b| !b.is_closed());
+                    assert!(pieces.all(|b| b.ends.iter().all(honest)), "{text}");
                     if found.is_proven {
+                        assert_eq!(loops, found.branches.len(), "{text}");
                         // What is proven is true: rounding of the poles moves the sheets by less than 1e-14.
                         let want = if shift < 0.0 { n } else { 0 };
                         let clear = shift.abs() > 1e-14;
@@ -99,8 +103,11 @@ fn a_sheet_that_slides_through_tangency_never_shows_a_wrong_count() {
                         let kinds = [ContactKind::Touching, ContactKind::Degenerate];
                         assert!(found.contacts.iter().all(|c| kinds.contains(&c.kind)), "{text}");
                         let seen = loops + found.contacts.len() + found.undecided.len();
-                        assert!(seen > 0 && loops + found.contacts.len() <= n, "{text}");
-                        assert!(shift.abs() < 1e-11, "{text}: not decided");
+                        assert!(seen > 0 && loops <= n, "{text}");
+                        let whole = loops == found.branches.len();
+                        assert!(!whole || loops + found.contacts.len() <= n, "{text}");
+                        // The sheets are 17 long: that is 1e-12 of it.
+                        assert!(shift.abs() <= 1e-11, "{text}: not decided");
                         assert!(shift >= 0.0 || seen >= n || shift > -1e-14, "{text}: {seen}");
                         open += 1;
                     }

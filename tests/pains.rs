@@ -327,6 +327,28 @@ fn sixteen_threads_that_meet_on_a_fresh_shape_get_the_same_bits() {
     });
 }
 
+/// Pain: a progress callback that asks the same shape, while its index is made, waits for ever.
+#[test]
+fn what_is_polled_while_the_index_is_made_may_ask_the_shape() {
+    let n = 80;
+    let poles: Vec<Vector> = (0..n * n)
+        .map(|k| [(k / n) as f64, (k % n) as f64, ((k / n * 7 + k % n * 3) % 11) as f64 * 0.1])
+        .collect();
+    let ends = [vec![0.0; 3], (0..=n - 3).map(|k| k as f64).collect(), vec![(n - 3) as f64; 3]];
+    let knots = ends.concat();
+    let surface = Surface::new(&knots, &knots, 3, 3, &poles, n, n, None).expect("a surface");
+    let surface = IndexedSurface::new(surface);
+    let mut asked = 0;
+    surface
+        .prepare(&mut || {
+            asked += 1;
+            surface.prepare(&mut || false).is_err()
+        })
+        .unwrap();
+    assert!(asked > 0);
+    assert_eq!(on_surface(&surface, [30.5, 30.5, 0.4]).flags & flag::NOT_PROVEN, 0);
+}
+
 /// The wavy curve over a domain that begins at `start`.
 fn wavy_from(start: f64) -> IndexedCurve {
     let wavy = wavy();

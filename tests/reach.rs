@@ -1,17 +1,20 @@
 //! The bounds by which a foot settles a search, against places all over the surface.
 
 #[path = "cases/mod.rs"]
-#[allow(dead_code, reason = "surfaces only")]
+#[allow(dead_code, reason = "shapes only")]
 mod cases;
 
 use cases::{Case, Shape};
 use footpoint::bounds::{Vector, cross, dot, norm, scaled, sub};
-use footpoint::index::IndexedSurface;
+use footpoint::index::{IndexedCurve, IndexedSurface};
 
 /// Places on each surface whose bounds are checked, and places that each is checked against, all over and near by.
 const PLACES: usize = 40;
 const OTHERS: usize = 250;
 const NEAR: usize = 50;
+
+/// Places on each curve.
+const CURVE_PLACES: usize = 200;
 
 /// Numbers in [0, 1) that are the same every time.
 struct Random(u64);
@@ -123,5 +126,75 @@ fn no_place_of_the_cases_lies_in_a_ball_that_a_bound_allows() {
             }
         }
     }
+    assert!(sum[1] == 0 || 4 * sum[0] > sum[1], "{sum:?}");
+}
+
+/// Checks some places of a curve for vectors across it; how many of their bounds say something.
+fn look_along(case: &Case, shape: &IndexedCurve, random: &mut Random) -> [usize; 2] {
+    let name = &case.name;
+    let index = shape.index(&mut || false).unwrap();
+    let Some(reach) = &index.reach else { return [0, 0] };
+    let rounding = 1e-14 * (1.0 + case.magnitude / case.diagonal) + reach.gap;
+    let (u0, u1) = shape.curve().domain();
+    let mix = |x: f64| if x == 1.0 { u1 } else { u0 + x * (u1 - u0) };
+    let mut finite = 0;
+    for n in 0..CURVE_PLACES {
+        let a = match n % 20 {
+            0 => 0.0,
+            1 => 1.0,
+            _ => random.next(),
+        };
+        let u = mix(a);
+        let last = index.segments.len() - 1;
+        let k = (0..=last).find(|&k| u <= index.segments[k].u.ends[1]).unwrap_or(last);
+        let at = index.segments[k].u.local(u);
+        let mut jet = [[0.0; 3]; 2];
+        shape.curve().derivatives(u, 1, &mut jet);
+        let tangent = scaled(jet[1], 1.0 / norm(jet[1]));
+        if !tangent[0].is_finite() {
+            continue;
+        }
+        let point = index.frame.enter(jet[0]);
+        let end = reach.end(k, at);
+        assert_eq!(end.is_some(), n % 20 < 2, "{name}: an end at {u}");
+        for m in 0..OTHERS + NEAR {
+            let b = if m < OTHERS {
+                random.next()
+            } else {
+                let small = 0.5f64.powi((m - OTHERS) as i32 / 2 + 2);
+                (a + small * (random.next() - 0.5)).clamp(0.0, 1.0)
+            };
+            let there = index.frame.enter(shape.curve().evaluate(mix(b)));
+            let e = sub(there, point);
+            let rest = sub(e, scaled(tangent, dot(e, tangent)));
+            // Across towards the place: nothing asks for more.
+            let across = scaled(rest, 1.0 / norm(rest));
+            if norm(rest) > rounding {
+                let bound = reach.asked(k, at, tangent, across, 0.0);
+                let kink = (reach.kink * norm(e)).min(norm(e));
+                check(name, across, point, there, bound, rounding + kink);
+                finite += usize::from(m == 0 && bound < f64::INFINITY);
+            }
+            if let Some((side, bound)) = end {
+                let outward = scaled(tangent, if side == 0 { -1.0 } else { 1.0 });
+                check(name, outward, point, there, bound, rounding);
+            }
+        }
+    }
+    [finite, CURVE_PLACES]
+}
+
+#[test]
+fn no_place_of_the_curves_lies_in_a_ball_that_a_bound_allows() {
+    let mut random = Random(0x6275_6f77);
+    let mut sum = [0, 0];
+    for folder in cases::folders() {
+        let case = cases::read(&folder);
+        if let Shape::Curve(shape) = &case.shape {
+            let [finite, all] = look_along(&case, shape, &mut random);
+            sum = [sum[0] + finite, sum[1] + all];
+        }
+    }
+    eprintln!("{sum:?}");
     assert!(sum[1] == 0 || 4 * sum[0] > sum[1], "{sum:?}");
 }

@@ -1,7 +1,7 @@
-"""Fairing beside OpenMesh's smoother and OpenCASCADE's plate: compare.py PEERS FOLDER writes a table to stdout and pictures to FOLDER.
+"""Fairing beside OpenMesh's smoother, OpenCASCADE's plate and its battens: compare.py PEERS FOLDER writes tables to stdout and pictures to FOLDER.
 
 PEERS is the program of peers.cpp, built with
-    g++ -O2 -std=c++17 peers.cpp -I/usr/include/opencascade -lOpenMeshCore -lOpenMeshTools -lTKGeomAlgo -lTKGeomBase -lTKBRep -lTKG3d -lTKMath -lTKernel
+    g++ -O2 -std=c++17 peers.cpp -I/usr/include/opencascade -lOpenMeshCore -lOpenMeshTools -lTKGeomAlgo -lTKGeomBase -lTKBRep -lTKG3d -lTKG2d -lTKMath -lTKernel
 The surfaces are known and smooth; noise is added to a grid of their points. Everybody may move a point by the same length.
 """
 
@@ -43,6 +43,52 @@ def energy(surface):
     return float((suu**2 + 2 * suv**2 + svv**2).mean())
 
 
+def bends(points):
+    """Integrals of k^2 and of (dk/ds)^2 along a polyline, and its length."""
+    ways = np.diff(points[:, :2], axis=0)
+    lengths = np.linalg.norm(ways, axis=1)
+    angles = np.unwrap(np.arctan2(ways[:, 1], ways[:, 0]))
+    between = (lengths[1:] + lengths[:-1]) / 2
+    curvature = np.diff(angles) / between
+    apart = (between[1:] + between[:-1]) / 2
+    return float((curvature**2 * between).sum()), float((np.diff(curvature) ** 2 / apart).sum()), float(lengths.sum())
+
+
+def battens(peers, folder):
+    """Curves between two ends with given tangents: OpenCASCADE's FairCurve and the curve of least slope that fairing makes of a cubic."""
+    print("\n| angles with the chord | by | integral of k^2 | of (dk/ds)^2 | length | ms |\n|---|---|---|---|---|---|")
+    parts = []
+    for row, (first, last) in enumerate([(0.6, 0.6), (0.9, 0.3), (0.5, -0.5)]):
+        lines = subprocess.run([peers, "0", "0", "1", "0", str(first), str(last)], capture_output=True, text=True, check=True).stdout.split("\n")
+        found = {}
+        for k in [k for k, line in enumerate(lines) if line and line[0].isalpha()]:
+            label, spent = lines[k].split()
+            found[f"FairCurve_{label}"] = (np.array([line.split() for line in lines[k + 1 : k + 402]], float), float(spent))
+        # The tangents that the batten has; a cubic with them, over twelve spans.
+        points = found["FairCurve_Batten"][0]
+        ends = [points[1] - points[0], points[-1] - points[-2]]
+        ends = [way / np.linalg.norm(way) for way in ends]
+        cubic = footpoint.Curve.from_poles(3, np.array([points[0], points[0] + 0.36 * ends[0], points[-1] - 0.36 * ends[1], points[-1]]))
+        cubic = footpoint.operate.refine(cubic, np.arange(1, 12) / 12)
+        start = time.perf_counter()
+        report = fair.curve(cubic, 0.3, strain=0.0, slope=1.0, steps=300)
+        spent = 1e3 * (time.perf_counter() - start)
+        found["footpoint slope"] = (np.asarray(report.shape.evaluate(np.linspace(0, 1, 401))), spent)
+        for column, (label, (points, spent)) in enumerate(found.items()):
+            square, slope, length = bends(points)
+            print(f"| {first}, {last} | {label} | {square:.4f} | {slope:.4f} | {length:.4f} | {spent:.1f} |")
+            ways = np.gradient(points[:, :2], axis=0)
+            turns = np.gradient(np.unwrap(np.arctan2(ways[:, 1], ways[:, 0]))) / np.linalg.norm(ways, axis=1)
+            normals = np.column_stack([-ways[:, 1], ways[:, 0]]) / np.linalg.norm(ways, axis=1)[:, None]
+            tips = points[:, :2] - 0.06 * turns[:, None] * normals
+            at = lambda rows: " ".join(f"{20 + 340 * column + 300 * x:.1f},{150 + 170 * row - 300 * y:.1f}" for x, y in rows)
+            teeth = "".join(f'<polyline points="{at([a, b])}" stroke="#7aa6d8" stroke-width="0.6"/>' for a, b in zip(points[::6, :2], tips[::6]))
+            parts.append(f'{teeth}<polyline points="{at(tips)}" fill="none" stroke="#2468b0"/><polyline points="{at(points[:, :2])}" fill="none" stroke="black" stroke-width="1.6"/>'
+                         f'<text x="{20 + 340 * column}" y="{22 + 170 * row}" font-family="sans-serif" font-size="12">{label}: {slope:.3f}</text>')
+    text = f'<svg xmlns="http://www.w3.org/2000/svg" width="1060" height="530"><rect width="100%" height="100%" fill="white"/>{"".join(parts)}</svg>\n'
+    (folder / "fairing_battens.svg").write_text(text, encoding="utf-8")
+
+
 def main(peers, folder):
     folder = Path(folder)
     at = greville(N)
@@ -80,6 +126,9 @@ def main(peers, folder):
             print(f"| {name} | {label} | {energy(surface) / ideal:.3f} | {moved:.2e} | {error:.2e} | {spent:.0f} |")
             pictures.append(inspect.picture(surface, inspect.Pattern.ZEBRA, size=(300, 240), eye=(0.4, -0.9, 1.3), bands=40).pixels)
         inspect.Picture(np.concatenate(pictures, 1), (0, 0)).save(folder / f"fairing_{name}.png")
+
+
+    battens(peers, folder)
 
 
 if __name__ == "__main__":

@@ -238,8 +238,8 @@ class FairOptions(ctypes.Structure):
     _fields_ = [("struct_size", c_size_t), ("deviation", c_double), ("strain", c_double), ("jerk", c_double), ("distance", c_double),
                 ("method", c_uint32), ("by_length", c_uint32), ("ends", c_uint32 * 2), ("borders", c_uint32 * 4), ("fixed", c_void_p),
                 ("fixed_count", c_size_t), ("through", c_void_p), ("through_count", c_size_t), ("knots", c_void_p), ("knot_count", c_size_t),
-                ("length", c_double * 2), ("region", c_double * 4), ("steps", c_uint32), ("reserved", c_uint32),
-                ("should_stop", StopFunction), ("user", c_void_p)]
+                ("length", c_double * 2), ("region", c_double * 4), ("steps", c_uint32), ("calm", c_uint32),
+                ("should_stop", StopFunction), ("user", c_void_p), ("slope", c_double)]
 
 
 class FairSummary(ctypes.Structure):

@@ -190,13 +190,13 @@ class Call:
         lib.functions[init](ctypes.addressof(self.struct), ctypes.sizeof(self.struct))
         self._hints: np.ndarray | None = None
         for name in ("tolerance", "accuracy", "radius", "weight_min", "weight_max", "ratio_limit", "chord", "relative", "deviation", "strain",
-                     "jerk", "distance"):
+                     "jerk", "distance", "slope"):
             if name in options:
                 setattr(self.struct, name, real(name, options[name]))
         for name, most in _INTEGERS.items():
             if name in options:
                 setattr(self.struct, name, integer(name, options[name], 0, most))
-        for name in ("minima_only", "symmetric", "by_length"):
+        for name in ("minima_only", "symmetric", "by_length", "calm"):
             if name in options:
                 setattr(self.struct, name, 1 if options[name] else 0)
         if options.get("domain") is not None:
@@ -348,7 +348,9 @@ class FairOptions(TypedDict, total=False):
     method       a `fair.Method`; default ENERGY
     strain       weight of the squared second derivatives (surfaces: of the thin plate); default 1
     jerk         weight of the squared third derivatives; default 0
+    slope        curves: weight of the squared change of the curvature along the arc length; default 0
     distance     weight of the squared distance from the shape as it was; default 0
+    calm         planar curves: no more inflections than the calmest curve that is allowed; default True
     by_length    curves: derivatives and integrals by the arc length, not by the parameter
     ends         curves: what is kept at start and end, a pair of 0 nothing, 1 point, 2 first derivative, 3 second; default (2, 2)
     borders      surfaces: what is kept along u0, u1, v0, v1: 0 nothing, 1 G0, 2 G1, 3 G2; default (2, 2, 2, 2)
@@ -357,15 +359,17 @@ class FairOptions(TypedDict, total=False):
     knots        curves: the knots that KNOT_REMOVAL may fair; default all inner ones
     length       curves: least and greatest arc length allowed
     region       surfaces: u0, u1, v0, v1: only this part changes
-    steps        steps at most; 0: the default
+    steps        solutions of the equations at most, five a step; 0: the default
     should_stop  called without arguments between steps; a true result ends the call with `Cancelled`
     """
 
     method: int
     strain: float
     jerk: float
+    slope: float
     distance: float
     deviation: float
+    calm: bool
     by_length: bool
     ends: "ArrayLike"
     borders: "ArrayLike"

@@ -134,6 +134,8 @@ class Intersection:
     def curves(self, branch: int, tolerance: float) -> list[BranchCurves]:
         """A branch as cubic B-splines in space and in both domains (z = 0): one set for each part between two seams. Of surfaces only.
 
+        Smoother by energy: `footpoint.fair.curve(part.space, deviation)`; the deviation that it proves adds to `error`.
+
         tolerance  length, > 0: what the fit aims at
         """
         a, b = self._shapes

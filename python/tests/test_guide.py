@@ -8,7 +8,8 @@ import pytest
 from shapes import ROOT
 
 GUIDE = (ROOT / "docs" / "guide.md").read_text(encoding="utf-8")
-PROGRAMS = re.findall(r"```python\n(.*?)```", GUIDE.split("## Python users")[1].split("\n## ")[0], re.S)
+PROGRAMS = [text for section in ("## Python users", "## Fairing and inspection")
+            for text in re.findall(r"```python\n(.*?)```", GUIDE.split(section)[1].split("\n## ")[0], re.S)]
 PROGRAMS += re.findall(r"```python\n(.*?)```", (ROOT / "python" / "README.md").read_text(encoding="utf-8"), re.S)
 
 
@@ -20,4 +21,4 @@ def test_program(number, tmp_path):
 
 
 def test_there_are_programs():
-    assert len(PROGRAMS) == 8
+    assert len(PROGRAMS) == 10

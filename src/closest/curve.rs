@@ -10,6 +10,7 @@ use super::elementary::raise;
 use super::line::{Given, Line, LineMemory, Source, search_line};
 use super::local::{LOCAL_FLAGS, WholeCurve, curve_start};
 use super::proof::{Proof, Site, Watch, note_loose};
+use super::settle::settle_on_curve;
 use super::within::{Within, nothing_within};
 use super::{
     CONTINUUM_STEPS, FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, distance,
@@ -18,7 +19,9 @@ use super::{
 };
 use crate::bounds::{Vector, cross, dot, norm, sub};
 use crate::error::Error;
-use crate::index::{CurveIndex, IndexedCurve, position_error, position_steps, product_steps};
+use crate::index::{
+    CurveIndex, CurveReach, IndexedCurve, position_error, position_steps, product_steps,
+};
 use crate::refine::{Trace, foot_on_curve};
 
 /// A tangent break smaller than this angle (radians) is rounding of the poles, not a crease.
@@ -141,7 +144,9 @@ impl IndexedCurve {
         };
         let whole = self.whole(index, query, floor);
         let range = self.range(options);
-        let search = CurveSearch { index, whole, query: q, range, options, steps };
+        // Where only what is nearer than another shape counts, a foot of this one settles nothing.
+        let reach = index.reach.as_ref().filter(|_| within.is_none());
+        let search = CurveSearch { index, reach, whole, query: q, range, options, steps };
         if !traced && let Some(mut foot) = self.elementary(index, query, &search, (gap, allowed)) {
             foot.flags |= if hint.is_some() { flag::HINT_USED } else { 0 };
             return foot;
@@ -179,7 +184,9 @@ impl IndexedCurve {
         if foot.flags & flag::NOT_PROVEN != 0 {
             self.settle_grain(index, query, &search, &mut foot, &proof, allowed);
         }
-        if proof.flat.is_some() && search.is_continuum(site, &proof) {
+        if proof.settled.is_some() {
+            foot.iterations = proof.evaluations;
+        } else if proof.flat.is_some() && search.is_continuum(site, &proof) {
             foot.flags |= flag::CONTINUUM | flag::TIE;
         } else {
             foot.flags |= search.ties(workspace, &mut proof);
@@ -282,6 +289,8 @@ impl IndexedCurve {
 /// One global search on a curve.
 struct CurveSearch<'a> {
     index: &'a CurveIndex,
+    /// Where a foot of the curve may settle the search.
+    reach: Option<&'a CurveReach>,
     /// The curve and the query as the caller has them.
     whole: WholeCurve<'a>,
     query: Vector,
@@ -339,6 +348,9 @@ impl CurveSearch<'_> {
         let site = Site { piece: k, at: [s, 0.0] };
         proof.offer(site, jet.d, flat);
         proof.keep(site, &jet.into());
+        let (rational, radius) = (self.index.is_rational(), self.index.segments[k].radius);
+        let position = position_error(self.steps, rational, radius, norm(view.1), norm(self.query));
+        settle_on_curve(self.reach, site, &jet, position, self.index.degree(), proof);
     }
 
     /// Goes on in the neighbour when the best foot lies on the knot between two segments: the search leaves out what
@@ -433,6 +445,7 @@ impl CurveSearch<'_> {
             site: &site,
             grid: &self.index.grid,
             method: self.options.method,
+            reach: self.reach,
         };
         let here = proof.site.filter(|site| site.piece == k);
         let foot = here.and_then(|site| Some((site.at[0], proof.jet_at(site)?.along(0))));

@@ -12,10 +12,11 @@ use super::certificate::{
 };
 use super::net::CutFree;
 use super::proof::{Proof, Site};
+use super::settle::settle_on_curve;
 use crate::bezier::Bidegree;
 use crate::bounds::{HALF_ULP, Vector, dot, norm};
 use crate::coefficients::{Differences, Grid};
-use crate::index::product_steps;
+use crate::index::{CurveReach, product_steps};
 use crate::jet::{BezierSegment, Jet1, Lane};
 use crate::knots::MAX_DEGREE;
 use crate::refine::{Method, foot_on_curve};
@@ -49,6 +50,8 @@ pub struct Line<'a> {
     pub grid: &'a Grid,
     /// Local iteration.
     pub method: Method,
+    /// How far vectors across may be followed, where a foot may settle the search.
+    pub reach: Option<&'a CurveReach>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -204,6 +207,9 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         if self.proof.best == f64::INFINITY {
             let start = self.vertex(interval, at, place);
             self.iterate(start, self.line.range);
+            if self.proof.settled.is_some() {
+                return Verdict::Closed;
+            }
             interval.error += 8.0 * HALF_ULP * self.proof.target_squared;
         }
         if !self.proof.spend() || interval.high - interval.low < LEAST_WIDTH {
@@ -301,8 +307,11 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
             let (a, b) = ((self.line.site)(0.0).at, (self.line.site)(1.0).at);
             jet.is_flat().then_some([b[0] - a[0], b[1] - a[1]])
         };
-        self.proof.offer((self.line.site)(s), jet.d, along);
-        self.proof.rival((self.line.site)(s), jet.d);
+        let site = (self.line.site)(s);
+        self.proof.offer(site, jet.d, along);
+        self.proof.rival(site, jet.d);
+        let (position, degree) = (self.line.position, self.line.segment.degree);
+        settle_on_curve(self.line.reach, site, &jet, position, degree, self.proof);
         let [first, last] = self.line.range;
         if (s == low && low != first) || (s == high && high != last) || taken >= LONG {
             self.proof.cut_off((self.line.site)(s));

@@ -3,9 +3,9 @@
 use super::certificate::slope_error;
 use super::proof::{Proof, Site};
 use crate::bezier::Bidegree;
-use crate::bounds::{HALF_ULP, cross, dot, norm, scaled, sub};
-use crate::index::Reach;
-use crate::jet::Jet2;
+use crate::bounds::{HALF_ULP, add, cross, dot, norm, scaled, sub};
+use crate::index::{CurveReach, Reach};
+use crate::jet::{Jet1, Jet2};
 
 /// What must be left of `1 - 2 a K`: less says too little of feet that tie.
 const LEAST_ROOM: f64 = 0.0625;
@@ -88,5 +88,58 @@ fn bound(
     let square = (d - position).max(0.0) * (1.0 - 8.0 * HALF_ULP);
     let bound = (square * square - lost / room).max(0.0).sqrt() * (1.0 - 4.0 * HALF_ULP);
     // Not where the tangents vanish or agree.
+    lost.is_finite().then_some(bound)
+}
+
+/// As [`settle`], for a curve.
+pub fn settle_on_curve(
+    reach: Option<&CurveReach>,
+    site: Site,
+    jet: &Jet1,
+    position: f64,
+    degree: usize,
+    proof: &mut Proof,
+) {
+    if let (Some(reach), true) = (reach, proof.site == Some(site)) {
+        let bound = bound_on_curve(reach, site, jet, position, degree);
+        proof.settled = bound.filter(|b| *b >= norm(jet.d) - proof.gap).or(proof.settled);
+    }
+}
+
+/// A lower bound of the distance to the whole curve, if the place of the jet gives one.
+///
+/// With `q - f = n + b o + e` (n across, o the outward tangent at an end, b >= 0, e along the curve) as for a surface;
+/// a tangent that breaks by `kink` adds to `|e|` what it is worth for both parts of n, and so does a gap between ends.
+fn bound_on_curve(
+    reach: &CurveReach,
+    Site { piece: k, at }: Site,
+    jet: &Jet1,
+    position: f64,
+    degree: usize,
+) -> Option<f64> {
+    let (d, speed, w) = (norm(jet.d), norm(jet.s), jet.w[0]);
+    let slack = slope_error(d, speed, w, position, degree) / (w * w * speed);
+    let tangent = scaled(jet.s, 1.0 / speed);
+    let along = -dot(jet.d, tangent);
+    let across = scaled(add(jet.d, scaled(tangent, along)), -1.0);
+    let off = position + 1e-9 * d + 4.0 * slack;
+    let mut asked = reach.asked(k, at[0], tangent, across, off);
+    let mut lost = along.abs() + slack;
+    if let Some((side, bend)) = reach.end(k, at[0]) {
+        let out = if side == 0 { -along } else { along };
+        if out >= 0.0 {
+            asked += (out + off) * bend;
+            // An outward part that may be none may also be an inward one.
+            lost = slack + if out < off { 2.0 * off } else { 0.0 };
+        }
+    }
+    lost += 1.5 * reach.kink * d + reach.gap;
+    let room = 1.0 - 2.0 * asked * (1.0 + 1e-12);
+    if room.is_nan() || room < LEAST_ROOM {
+        return None;
+    }
+    let square = (d - position).max(0.0) * (1.0 - 8.0 * HALF_ULP);
+    let less = lost * lost / room + 4.0 * reach.gap * d;
+    let bound = (square * square - less).max(0.0).sqrt() * (1.0 - 4.0 * HALF_ULP);
     lost.is_finite().then_some(bound)
 }

@@ -287,9 +287,13 @@ impl SurfaceSearch<'_> {
     fn start_at(&self, at: [f64; 2], proof: &mut Proof) {
         let at =
             [at[0].clamp(self.range[0], self.range[1]), at[1].clamp(self.range[2], self.range[3])];
-        let rows = self.index.patches.len() / self.index.columns;
-        let first = |row: usize| &self.index.patches[row * self.index.columns];
-        let row = (1..rows).rev().find(|&row| first(row).u.ends[0] <= at[0]).unwrap_or(0);
+        // The last row that begins at or before it.
+        let (mut row, mut end) = (0, self.index.patches.len() / self.index.columns);
+        while end - row > 1 {
+            let middle = row.midpoint(end);
+            let starts = self.index.patches[middle * self.index.columns].u.ends[0];
+            *(if starts <= at[0] { &mut row } else { &mut end }) = middle;
+        }
         let column =
             self.index.patches[..self.index.columns - 1].partition_point(|p| p.v.ends[1] <= at[1]);
         let k = row * self.index.columns + column;

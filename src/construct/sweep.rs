@@ -10,6 +10,7 @@
 use super::{check_interval, check_vector, invalid};
 use crate::bounds::{Vector, add, norm, scaled, sub};
 use crate::curve::Curve;
+use crate::curve::insertion::spare;
 use crate::elementary::{CircleForm, Elementary, ElementarySurface};
 use crate::error::Error;
 use crate::operate::compatible_curves;
@@ -21,6 +22,7 @@ use crate::surface::Surface;
 /// # Errors
 /// Memory that could not be had.
 pub fn ruled(first: &Curve, second: &Curve) -> Result<Surface, Error> {
+    spare(first.poles().len() + second.poles().len(), 64)?;
     let pair = compatible_curves(&[first.clone(), second.clone()])?;
     across(&pair, &[0.0, 0.0, 1.0, 1.0], 1)
 }
@@ -28,6 +30,8 @@ pub fn ruled(first: &Curve, second: &Curve) -> Result<Surface, Error> {
 /// The surface whose columns of poles are those of compatible curves.
 pub(super) fn across(curves: &[Curve], knots_v: &[f64], degree_v: usize) -> Result<Surface, Error> {
     let (count, knots) = (curves[0].poles().len(), curves[0].knots());
+    // Lists that grow by doubling.
+    spare(count * curves.len(), 3 * (size_of::<Vector>() + size_of::<f64>()))?;
     let net = |i: usize| curves.iter().map(move |curve| curve.poles()[i]);
     let poles: Vec<Vector> = (0..count).flat_map(net).collect();
     let rational = curves.iter().any(|curve| curve.weights().is_some());
@@ -54,6 +58,7 @@ pub fn extruded(curve: &Curve, direction: Vector) -> Result<Surface, Error> {
     if norm(direction) == 0.0 {
         return invalid("direction: is 0".into());
     }
+    spare(curve.poles().len(), 160)?;
     let moved: Vec<Vector> = curve.poles().iter().map(|p| add(*p, direction)).collect();
     let end = Curve::new(curve.knots().values(), curve.degree(), &moved, curve.weights())?;
     across(&[curve.clone(), end], &[0.0, 0.0, 1.0, 1.0], 1)

@@ -199,6 +199,16 @@ pub(crate) fn room<T>(count: usize) -> Result<Vec<T>, Error> {
     Ok(list)
 }
 
+/// Refuses what memory does not hold: `count` times `bytes` are reserved and given back. For work that then allocates piece by piece.
+pub(crate) fn spare(count: usize, bytes: usize) -> Result<(), Error> {
+    room::<u8>(count.checked_mul(bytes).ok_or(Error::OutOfMemory)?).map(drop)
+}
+
+/// A copy of a list.
+pub(crate) fn copy_of<T: Copy>(list: &[T]) -> Result<Vec<T>, Error> {
+    collect(list.len(), list.iter().copied())
+}
+
 fn collect<T>(count: usize, entries: impl Iterator<Item = T>) -> Result<Vec<T>, Error> {
     let mut list = room(count)?;
     list.extend(entries);

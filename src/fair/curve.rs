@@ -1,12 +1,15 @@
 //! Fairing of curves.
 
-use super::length::arc_length;
-use super::rows::{Cell, Functional, curve_energy, curve_rows, hull_deviation, jumps};
+use super::length::{LengthLimit, arc_length};
+use super::rows::{Cell, Functional, curve_energy, curve_rows, hull_deviation, jumps, refinement};
+use super::slope::Slope;
 use super::solve::{Problem, State, differences};
 use super::{Faired, Method};
-use crate::bounds::Vector;
+use crate::bounds::{Vector, cross, dot, norm, sub};
 use crate::curve::Curve;
 use crate::error::Error;
+use crate::index::IndexedCurve;
+use crate::inspect::turn_count;
 use crate::knots::{Knots, Side};
 
 /// Poles up to which the proof is sharpened by inserted knots.
@@ -24,6 +27,9 @@ pub struct CurveFairing {
     pub strain: f64,
     /// Weight of the integral of |C'''|^2, the jerk.
     pub jerk: f64,
+    /// Weight of the integral of the squared change of the curvature vector along the curve: (dk/ds)^2 of planar curves,
+    /// (dk/ds)^2 + k^2 tau^2 in space, by the arc length of the curve as it becomes. [`Method::Energy`] only.
+    pub slope: f64,
     /// Weight of the integral of |C - old C|^2.
     pub distance: f64,
     /// Derivatives and integrals by the arc length of the curve as it was, not by the parameter: the jerk then is the change
@@ -37,11 +43,16 @@ pub struct CurveFairing {
     pub fixed: Vec<usize>,
     /// Parameters whose points stay.
     pub through: Vec<f64>,
-    /// Knots to be faired by [`Method::KnotRemoval`]; empty: all inner ones.
+    /// Knots to be faired by [`Method::KnotRemoval`] and [`Method::Local`]: of each the pole in the middle of its jump moves. Empty:
+    /// all inner ones, and with [`Method::Local`] all poles.
     pub knots: Vec<f64>,
     /// Least and greatest arc length allowed, which the curve has already.
     pub length: Option<[f64; 2]>,
-    /// Steps at most, each a solution of the equations; local methods take eight a pole at least.
+    /// No more changes of the side to which the curve bends, seen across its plane, than the curve of least jerk by arc length has
+    /// that the constraints allow: as much of that energy is added as this takes. For curves whose poles are nearer to a plane than
+    /// half the deviation, and [`Method::Energy`].
+    pub calm: bool,
+    /// Solutions of the equations at most, five a step; local methods take eight steps a pole at least.
     pub steps: usize,
 }
 
@@ -52,6 +63,7 @@ impl CurveFairing {
             method: Method::Energy,
             strain: 1.0,
             jerk: 0.0,
+            slope: 0.0,
             distance: 0.0,
             by_length: false,
             deviation,
@@ -60,7 +72,8 @@ impl CurveFairing {
             through: Vec::new(),
             knots: Vec::new(),
             length: None,
-            steps: 60,
+            calm: true,
+            steps: 300,
         }
     }
 }
@@ -87,10 +100,15 @@ fn check(curve: &Curve, fairing: &CurveFairing) -> Result<(), Error> {
     check_deviation(fairing.deviation)?;
     check_number("strain", fairing.strain, 0.0)?;
     check_number("jerk", fairing.jerk, 0.0)?;
+    check_number("slope", fairing.slope, 0.0)?;
     check_number("distance", fairing.distance, 0.0)?;
     let refuse = |text: String| Err(Error::InvalidArgument(text));
-    if fairing.method != Method::KnotRemoval && fairing.strain + fairing.jerk == 0.0 {
-        return refuse("strain: and jerk are 0, there is no energy".into());
+    if fairing.slope > 0.0 && fairing.method != Method::Energy {
+        return refuse("slope: only the method that moves all poles at once lessens it".into());
+    }
+    let sum = fairing.strain + fairing.jerk + fairing.slope;
+    if fairing.method != Method::KnotRemoval && sum == 0.0 {
+        return refuse("strain: and jerk and slope are 0, there is no energy".into());
     }
     if let Some(k) = (0..2).find(|&k| fairing.ends[k] > 3) {
         return refuse(format!("ends: entry {k} = {}, 0 to 3 accepted", fairing.ends[k]));
@@ -138,13 +156,29 @@ pub(super) fn repeats(knots: &Knots) -> bool {
     (0..=2 * p).all(|i| (t[n - p + i] - t[i] - period).abs() <= 1e-12 * period.abs())
 }
 
+/// Whether each pole may move by the choice of knots.
+fn chosen_poles(curve: &Curve, fairing: &CurveFairing, lines: &[(f64, Cell)]) -> Vec<bool> {
+    let is_free = fairing.method != Method::Local || fairing.knots.is_empty();
+    let mut chosen = vec![is_free; curve.poles().len()];
+    for (_, cell) in lines.iter().filter(|line| fairing.knots.contains(&line.0)) {
+        let middle = (0..cell.poles.len())
+            .max_by(|&a, &b| cell.rows[a].abs().total_cmp(&cell.rows[b].abs()));
+        middle.into_iter().for_each(|a| chosen[cell.poles[a]] = true);
+    }
+    chosen
+}
+
 /// The unknown of each pole, their number, and the linear forms that must vanish.
-fn freedom(curve: &Curve, fairing: &CurveFairing) -> (Vec<Option<usize>>, usize, Vec<Cell>) {
+fn freedom(
+    curve: &Curve,
+    fairing: &CurveFairing,
+    chosen: &[bool],
+) -> (Vec<Option<usize>>, usize, Vec<Cell>) {
     let (count, p) = (curve.poles().len(), curve.degree());
     let weight = |i: usize| curve.weights().map_or(1.0, |w| w[i]);
     let same = |i: usize, j: usize| curve.poles()[i] == curve.poles()[j] && weight(i) == weight(j);
     let wrap = if repeats(curve.knots()) { wrapped(count, p, same) } else { 0 };
-    let mut fixed = vec![false; count];
+    let mut fixed: Vec<bool> = chosen.iter().map(|is_chosen| !is_chosen).collect();
     let mut kept = Vec::new();
     fairing.fixed.iter().for_each(|&i| fixed[i] = true);
     let (start, end) = curve.domain();
@@ -211,6 +245,22 @@ fn proven_deviation(curve: &Curve, new: &[Vector]) -> Result<f64, Error> {
     Ok(plain.min(sharp + rounding))
 }
 
+/// The poles of a motion over quartered spans; over the spans themselves where the proof does not cut them.
+fn tubes(curve: &Curve) -> Vec<Cell> {
+    let (knots, count) = (curve.knots(), curve.poles().len());
+    let fine = if count > SHARPEN_UP_TO { None } else { refinement(knots, &quarters(knots)) };
+    let Some(fine) = fine else {
+        return (0..count).map(|i| cell(i, &[1.0])).collect();
+    };
+    let weight = |i: usize| curve.weights().map_or(1.0, |w| w[i]);
+    let cells = fine.iter().map(|(first, row)| {
+        let row: Vec<f64> = row.iter().enumerate().map(|(j, x)| x * weight(first + j)).collect();
+        let sum: f64 = row.iter().sum();
+        cell(*first, &row.iter().map(|x| x / sum).collect::<Vec<f64>>())
+    });
+    cells.collect()
+}
+
 /// The places that cut every span in four, but for those that are knots because a span is that short.
 pub(super) fn quarters(knots: &Knots) -> Vec<f64> {
     let t = knots.values();
@@ -221,10 +271,100 @@ pub(super) fn quarters(knots: &Knots) -> Vec<f64> {
     places
 }
 
+/// The normal of the plane that the poles are nearest to, at least about, and how far they are from it; none for straight curves.
+fn plane(curve: &Curve) -> Option<(Vector, f64)> {
+    let poles = curve.poles();
+    let from = |p: &Vector| sub(*p, poles[0]);
+    let along = poles.iter().map(from).max_by(|a, b| norm(*a).total_cmp(&norm(*b)))?;
+    let across = poles.iter().map(|p| cross(along, from(p)));
+    let normal = across.max_by(|a, b| norm(*a).total_cmp(&norm(*b)))?;
+    let size = norm(normal);
+    if size.is_nan() || size <= 1e-9 * dot(along, along) {
+        return None;
+    }
+    let gap = poles.iter().map(|p| (dot(from(p), normal) / size).abs()).fold(0.0, f64::max);
+    Some((normal, gap))
+}
+
 /// Rounding of differences of poles.
 fn size_rounding(curve: &Curve) -> f64 {
     let most = curve.poles().iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
     f64::EPSILON * most
+}
+
+/// Weights of the calming energy, as powers of ten of what makes it as large as the asked one.
+const CALMING: [i32; 10] = [2, 1, 0, -1, -2, -3, -4, -5, -6, -7];
+
+/// Least energy among the curves that bend to and fro as seldom as the calmest one.
+struct Calm<'a> {
+    curve: &'a Curve,
+    normal: Vector,
+    deviation: f64,
+    radius: f64,
+}
+
+type Run<'a> = dyn FnMut(&mut Problem, &mut State) -> Result<bool, Error> + 'a;
+type Proof<'a> = dyn Fn(&[Vector]) -> Result<f64, Error> + 'a;
+
+impl Calm<'_> {
+    /// A state with fewer turns than the one of least energy alone, if there is one; whether it converged, and its deviation.
+    ///
+    /// The calming energy is the jerk by arc length. Of several shares of it the least energy without more turns is taken.
+    fn instead_of(
+        &self,
+        problem: &mut Problem,
+        plain: &State,
+        run: &mut Run,
+        proven: &Proof,
+    ) -> Result<Option<(State, bool, f64)>, Error> {
+        let sampled = Slope::new(self.curve, 1.0);
+        // Degrees too high for a proof are counted at samples.
+        let count = |poles: &[Vector]| {
+            let shape = IndexedCurve::new(moved(self.curve, poles));
+            turn_count(&shape, self.normal).unwrap_or_else(|_| sampled.turns(poles, self.normal))
+        };
+        let before = count(&plain.poles);
+        if before == 0 {
+            return Ok(None);
+        }
+        let old = self.curve.poles();
+        let calming = curve_energy(self.curve, [0.0, 0.0, 0.0, 1.0], true);
+        let asked = problem.energy.clone();
+        let (first, calm) = (plain.energies[0], calming.value(old));
+        let energy = |problem: &Problem, poles: &[Vector]| problem.value(poles, old);
+        let slope = problem.slope.take();
+        problem.energy = calming.clone();
+        problem.radius = self.radius;
+        let mut state = State::new(old, calm);
+        let mut found = problem.in_rounds(&mut state, self.deviation, run, proven)?;
+        (problem.energy, problem.slope) = (asked.clone(), slope);
+        let most = count(&state.poles);
+        if most >= before || calm <= 0.0 || found.1 == 0.0 {
+            return Ok(None);
+        }
+        let mut best = State { energies: vec![first], ..State::new(old, first) };
+        let mut result = None;
+        let mut value = energy(problem, &state.poles);
+        for power in CALMING {
+            if value < best.last() && count(&state.poles) <= most {
+                best.poles.clone_from(&state.poles);
+                best.energies.push(value);
+                result = Some(found);
+            }
+            let share = first / calm * 10f64.powi(power);
+            problem.energy = asked.with(share, &calming);
+            let mixed = energy(problem, &state.poles);
+            state = State { poles: state.poles, energies: vec![mixed], ..State::new(old, mixed) };
+            problem.radius = self.radius;
+            found = problem.in_rounds(&mut state, self.deviation, run, proven)?;
+            problem.energy = asked.clone();
+            value = energy(problem, &state.poles);
+            if found.1 == 0.0 {
+                break;
+            }
+        }
+        Ok(result.map(|(converged, deviation)| (best, converged, deviation)))
+    }
 }
 
 /// A fairer curve on the same knots and weights, within the deviation.
@@ -239,9 +379,9 @@ pub fn fair_curve(
     poll: &mut dyn FnMut() -> bool,
 ) -> Result<Faired<Curve>, Error> {
     check(curve, fairing)?;
-    let (unknowns, count, kept) = freedom(curve, fairing);
-    let weights = [0.0, 0.0, fairing.strain, fairing.jerk];
     let lines: Vec<(f64, Cell)> = jumps(curve);
+    let (unknowns, count, kept) = freedom(curve, fairing, &chosen_poles(curve, fairing, &lines));
+    let weights = [0.0, 0.0, fairing.strain, fairing.jerk];
     let energy = match fairing.method {
         Method::KnotRemoval => Functional(lines.iter().map(|line| line.1.clone()).collect()),
         _ => curve_energy(curve, weights, fairing.by_length),
@@ -251,36 +391,58 @@ pub fn fair_curve(
     } else {
         Functional::default()
     };
-    let allowed = |poles: &[Vector]| {
-        fairing.length.is_none_or(|[low, high]| {
-            let length = arc_length(&moved(curve, poles), LENGTH_ERROR);
-            (low..=high).contains(&length)
-        })
-    };
+    let slope = (fairing.slope > 0.0).then(|| Slope::new(curve, fairing.slope));
     let chosen: Vec<Vec<usize>> = (0..lines.len())
         .filter(|&k| fairing.knots.is_empty() || fairing.knots.contains(&lines[k].0))
         .map(|k| vec![k])
         .collect();
-    let mut state = State::new(curve.poles(), energy.value(curve.poles()));
-    if !state.last().is_finite() {
-        let text = "strain: its energy, that of jerk or of the shape is too large for a number";
-        return Err(Error::InvalidArgument(text.into()));
-    }
     let radius = fairing.deviation * (1.0 - 1e-9) - size_rounding(curve);
     if radius <= 0.0 {
         let text = "deviation: is below the rounding of the poles".to_string();
         return Err(Error::InvalidArgument(text));
     }
-    let mut problem =
-        Problem { energy, distance, unknowns, count, kept, radius, allowed: &allowed, poll };
+    let fits = |poles: &[Vector]| {
+        fairing.length.is_none_or(|[low, high]| {
+            let length = arc_length(&moved(curve, poles), LENGTH_ERROR);
+            (low..=high).contains(&length)
+        })
+    };
+    let proven = |poles: &[Vector]| proven_deviation(curve, poles);
+    let tubes = tubes(curve);
+    let mut problem = Problem {
+        energy,
+        distance,
+        slope,
+        unknowns,
+        count,
+        kept,
+        tubes,
+        radius,
+        length: fairing.length.map(|range| LengthLimit::new(curve, range)),
+        allowed: &fits,
+        poll,
+    };
+    let mut state = State::new(curve.poles(), 0.0);
+    state.energies[0] = problem.value(curve.poles(), curve.poles());
+    if !state.last().is_finite() {
+        let text =
+            "strain: its energy, that of jerk or slope or of the shape is too large for a number";
+        return Err(Error::InvalidArgument(text.into()));
+    }
     let mut run = |problem: &mut Problem, state: &mut State| match fairing.method {
         Method::Energy => problem.run(state, fairing.steps),
         Method::Local => problem.run_local(state, fairing.steps),
         Method::KnotRemoval => problem.run_knots(state, &chosen, fairing.steps),
     };
-    let proven = |poles: &[Vector]| proven_deviation(curve, poles);
-    let (converged, deviation) =
+    let (mut converged, mut deviation) =
         problem.in_rounds(&mut state, fairing.deviation, &mut run, &proven)?;
+    let normal = plane(curve).filter(|(_, gap)| 2.0 * gap <= fairing.deviation).map(|(n, _)| n);
+    if let (true, Method::Energy, Some(normal)) = (fairing.calm, fairing.method, normal) {
+        let calm = Calm { curve, normal, deviation: fairing.deviation, radius };
+        if let Some(found) = calm.instead_of(&mut problem, &state, &mut run, &proven)? {
+            (state, converged, deviation) = found;
+        }
+    }
     let shape = moved(curve, &state.poles);
     Ok(Faired { shape, energies: state.energies, deviation, converged })
 }

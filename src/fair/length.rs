@@ -1,7 +1,7 @@
 //! Arc length by Gauss' quadrature, halved until it settles.
 
-use super::rows::gauss;
-use crate::bounds::norm;
+use super::rows::{Cell, curve_rows, gauss, quadrature};
+use crate::bounds::{Vector, add, norm, scaled};
 use crate::curve::Curve;
 use crate::knots::Side;
 
@@ -43,4 +43,40 @@ fn part(
     }
     part(curve, [a, middle], rule, relative, depth - 1, Some(halves[0]))
         + part(curve, [middle, b], rule, relative, depth - 1, Some(halves[1]))
+}
+
+/// The arc length as a function of the poles, by quadrature, and the range that it must stay in.
+pub struct LengthLimit {
+    /// Least and greatest length.
+    pub range: [f64; 2],
+    /// Rows of the first derivative, with the weight of the place.
+    places: Vec<(Cell, f64)>,
+}
+
+impl LengthLimit {
+    pub fn new(curve: &Curve, range: [f64; 2]) -> Self {
+        let p = curve.degree();
+        let place = |&[u, weight]: &[f64; 2]| {
+            let (first, rows) = curve_rows(curve, u, Side::Above, 1);
+            (Cell { poles: (first..=first + p).collect(), rows: rows[p + 1..].to_vec() }, weight)
+        };
+        let places = quadrature(curve.knots(), true).iter().flatten().map(place).collect();
+        Self { range, places }
+    }
+
+    /// The length and its gradient.
+    pub fn with_gradient(&self, poles: &[Vector]) -> (f64, Vec<Vector>) {
+        let (mut length, mut gradient) = (0.0, vec![[0.0; 3]; poles.len()]);
+        for (cell, weight) in &self.places {
+            let way = cell.apply(&cell.rows, poles);
+            let speed = norm(way);
+            length += weight * speed;
+            if speed > 0.0 {
+                for (x, &i) in cell.rows.iter().zip(&cell.poles) {
+                    gradient[i] = add(gradient[i], scaled(way, weight * x / speed));
+                }
+            }
+        }
+        (length, gradient)
+    }
 }

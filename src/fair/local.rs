@@ -54,7 +54,9 @@ impl Problem<'_> {
                     within(old, self.radius, here, sub(here, scaled(slopes[k], 1.0 / diagonal[k])));
                 let way = sub(goal, here);
                 let gain = -2.0 * dot(slopes[k], way) - diagonal[k] * dot(way, way);
-                Some((gain, k, goal))
+                // Energies near the least number say nothing.
+                let is_number = goal.iter().chain(&[gain]).all(|x| x.is_finite());
+                is_number.then_some((gain, k, goal))
             };
             let best = (0..self.count).filter_map(goal).max_by(|a, b| a.0.total_cmp(&b.0));
             let Some((gain, k, goal)) = best else { return Ok(true) };
@@ -79,7 +81,7 @@ impl Problem<'_> {
         let mut poles = state.poles.clone();
         twins.iter().for_each(|&i| poles[i] = goal);
         if twins.len() > 1 || !(self.allowed)(&poles) {
-            return self.advance(state, &poles);
+            return self.advance(state, &poles) > 0.0;
         }
         state.poles = poles;
         state.energies.push(energy);

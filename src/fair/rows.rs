@@ -46,6 +46,16 @@ impl Functional {
         self.0.iter().map(cell).sum()
     }
 
+    /// The sum with `share` times another one.
+    pub fn with(&self, share: f64, other: &Self) -> Self {
+        let root = share.sqrt();
+        let scaled = |cell: &Cell| {
+            let rows = cell.rows.iter().map(|x| root * x).collect();
+            Cell { poles: cell.poles.clone(), rows }
+        };
+        Self(self.0.iter().cloned().chain(other.0.iter().map(scaled)).collect())
+    }
+
     /// Half its gradient.
     pub fn gradient(&self, poles: &[Vector]) -> Vec<Vector> {
         let mut gradient = vec![[0.0; 3]; poles.len()];
@@ -222,7 +232,7 @@ pub fn curve_energy(curve: &Curve, weights: [f64; 4], by_length: bool) -> Functi
 
 /// Turns rows of derivatives by the parameter into those by the arc length that the poles give; gives the speed, or nothing
 /// where it vanishes.
-fn to_arc_length(cell: &Cell, rows: &mut [f64], poles: &[Vector]) -> Option<f64> {
+pub fn to_arc_length(cell: &Cell, rows: &mut [f64], poles: &[Vector]) -> Option<f64> {
     let n = cell.poles.len();
     let [d1, d2, d3] = [1, 2, 3].map(|k| cell.apply(&rows[k * n..(k + 1) * n], poles));
     let v = dot(d1, d1).sqrt();
@@ -302,18 +312,59 @@ pub fn knot_jumps(knots: &Knots) -> Vec<(f64, Cell)> {
     jumps(&line)
 }
 
+/// The poles over more knots as combinations of those over the given ones: for each the first pole and `degree + 1` numbers. None for
+/// knots that are not clamped.
+///
+/// Reference: Cohen, Lyche, Riesenfeld, *Discrete B-splines and subdivision techniques in computer-aided geometric design and
+/// computer graphics*, 1980.
+pub fn refinement(knots: &Knots, inserted: &[f64]) -> Option<Vec<(usize, Vec<f64>)>> {
+    let (t, p, n) = (knots.values(), knots.degree(), knots.pole_count());
+    let (start, end) = knots.domain();
+    if knots.multiplicity(start) <= p || knots.multiplicity(end) <= p {
+        return None;
+    }
+    let mut fine: Vec<f64> = t.iter().chain(inserted).copied().collect();
+    fine.sort_by(f64::total_cmp);
+    let mut span = p;
+    let row = |k: usize| {
+        while span + 1 < n && t[span + 1] <= fine[k] {
+            span += 1;
+        }
+        let mut row = vec![0.0; p + 1];
+        row[p] = 1.0;
+        for r in 1..=p {
+            let x = fine[k + r];
+            // Entry j stands for pole span - p + j; those from p - r on are there.
+            for j in p - r..=p {
+                let i = span + j - p;
+                let rising = if j > p - r { row[j] * (x - t[i]) / (t[i + r] - t[i]) } else { 0.0 };
+                let falling = if j < p {
+                    row[j + 1] * (t[i + r + 1] - x) / (t[i + r + 1] - t[i + 1])
+                } else {
+                    0.0
+                };
+                row[j] = rising + falling;
+            }
+        }
+        (span - p, row)
+    };
+    Some((0..fine.len() - p - 1).map(row).collect())
+}
+
 /// Greatest length of `new - old`: with the same knots and weights no point moves farther. Rounded up.
 pub fn hull_deviation(new: &[Vector], old: &[Vector]) -> f64 {
     let length = |a: &Vector, b: &Vector| {
         let d = sub(*a, *b);
         let size = d.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-        if size == 0.0 {
+        if d == [0.0; 3] {
             0.0
         } else {
             size * dot(scaled(d, 1.0 / size), scaled(d, 1.0 / size)).sqrt()
         }
     };
-    let most = new.iter().zip(old).map(|(a, b)| length(a, b)).fold(0.0, f64::max);
+    // What is no number may be anywhere.
+    let greater = |m: f64, x: f64| if x.is_nan() { f64::INFINITY } else { m.max(x) };
+    let most = new.iter().zip(old).map(|(a, b)| length(a, b)).fold(0.0, greater);
     most * (1.0 + 16.0 * HALF_ULP)
 }
 
@@ -329,6 +380,22 @@ mod tests {
                 let sum: f64 = rule.iter().map(|[x, w]| w * x.powi(degree as i32)).sum();
                 assert!((sum - 1.0 / (degree + 1) as f64).abs() < 1e-14, "{n} {degree} {sum}");
             }
+        }
+    }
+
+    #[test]
+    fn refined_poles_are_those_of_inserted_knots() {
+        let knots = [0., 0., 0., 0., 1., 2., 2., 4., 4., 4., 4.];
+        let poles: Vec<Vector> = (0..7).map(|i| [i as f64, (i * i % 5) as f64, 1.0]).collect();
+        let curve = Curve::new(&knots, 3, &poles, None).unwrap();
+        let inserted = [0.25, 0.5, 0.75, 1.5, 3.0, 3.5];
+        let fine = curve.refine(&inserted).unwrap();
+        let rows = refinement(curve.knots(), &inserted).unwrap();
+        assert_eq!(rows.len(), fine.poles().len());
+        for ((first, row), pole) in rows.iter().zip(fine.poles()) {
+            let cell = Cell { poles: (*first..first + 4).collect(), rows: vec![] };
+            let gap = sub(cell.apply(row, &poles), *pole);
+            assert!(dot(gap, gap).sqrt() < 1e-14, "{first} {row:?} {pole:?}");
         }
     }
 

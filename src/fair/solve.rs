@@ -1,29 +1,43 @@
-//! All poles at once: least energy with each pole in a ball about where it was.
+//! All poles at once: least energy within a tube about the shape as it was.
 //!
 //! ```text
-//!   minimise  E(P0 + D)   subject to  |D_i| <= r,  rows . D = 0
-//!   solve     (K + diag m) D = -K P0       multipliers m: first one for all, so that the greatest |D_i| is r;
-//!                                          then each by how far its pole goes beyond the ball, or stays inside
-//!   step      from the present poles towards the solution, cut to the balls, to the least energy on the way
+//!   minimise  E(P0 + D)   subject to  |R_k D| <= r,  rows . D = 0      R_k D: poles of the motion over refined knots
+//!   repeat    (K + c R^T R) D = -K P0 + c R^T (z - y)                  one factor for many right-hand sides
+//!             z = R D + y, cut to the tube;   y = y + R D - z
+//!   step      from the present poles towards the solution, shrunk into the tube, to the least energy on the way
 //! ```
 //!
-//! Balls and linear constraints are convex: every point of a step is allowed.
+//! Tube and linear constraints are convex: every point of a step is allowed. With an energy that is no square (the slope of the
+//! curvature) K is a model of it at the present poles, and -K P0 becomes K D - gradient there.
+//!
+//! Reference: Boyd, Parikh, Chu, Peleato, Eckstein, *Distributed optimization and statistical learning via the alternating direction
+//! method of multipliers*, 2011, chapters 3 and 5.
 
 use super::LEAST_GAIN;
 use super::envelope::Envelope;
+use super::length::LengthLimit;
 use super::rows::{Cell, Functional, hull_deviation};
+use super::slope::Slope;
 use crate::bounds::{Vector, add, dot, norm, scaled, sub};
 use crate::error::Error;
-use crate::portable::SameDigits;
 
 /// Ridge on the matrix, as a share of its mean diagonal: energies do not see straight motions.
 const RIDGE: f64 = 1e-13;
 
-/// Solutions tried for one multiplier of all poles.
-const UNIFORM_TRIES: usize = 14;
+/// Solutions between two steps.
+const EVERY: usize = 5;
 
-/// Steps in a row that may gain nothing before the search ends: multipliers take some to find their poles.
-const PATIENCE: usize = 10;
+/// Solutions between two looks at the penalty.
+const BALANCED: usize = 10;
+
+/// Steps in a row that may gain nothing before the search ends.
+const PATIENCE: usize = 6;
+
+/// Share of the parameters' hold in the matrix of the slope: least, first and most.
+const HELD: [f64; 3] = [1e-6, 1e-1, 1e2];
+
+/// Over-relaxation of the solutions.
+const RELAXED: f64 = 1.6;
 
 /// Rounds in which the balls grow to what the proof leaves.
 const ROUNDS: usize = 4;
@@ -34,18 +48,80 @@ pub struct Problem<'a> {
     pub energy: Functional,
     /// What moving costs.
     pub distance: Functional,
+    /// An energy that is no square.
+    pub slope: Option<Slope>,
     /// The unknown of each pole; none: it stays. Poles may share one.
     pub unknowns: Vec<Option<usize>>,
     /// Number of unknowns.
     pub count: usize,
     /// Linear forms of the motion that must vanish.
     pub kept: Vec<Cell>,
-    /// How far a pole may move.
+    /// One row each: forms of the motion, over the poles, that may be as long as the radius; see [`Self::tube`].
+    pub tubes: Vec<Cell>,
+    /// How far a form of the tube may move; of the other methods: a pole.
     pub radius: f64,
+    /// What the arc length may be.
+    pub length: Option<LengthLimit>,
     /// Whether poles are allowed for other reasons.
     pub allowed: &'a dyn Fn(&[Vector]) -> bool,
     /// Asked between steps whether to stop.
     pub poll: &'a mut dyn FnMut() -> bool,
+}
+
+/// A factored matrix with the kept forms: rows, the matrix's solutions for them, and the factored products of both.
+///
+/// Coordinates are solved for apart (`width` 1) or together (3: unknown 3 k + axis), see [`Problem::width`].
+struct Factor {
+    width: usize,
+    factor: Envelope,
+    rows: Vec<Vec<f64>>,
+    solved: Vec<Vec<f64>>,
+    schur: Envelope,
+}
+
+/// The arc length, linear in the motions: `gradient . motions + at`, and what it may be.
+struct Length {
+    gradient: Vec<Vector>,
+    at: f64,
+    range: [f64; 2],
+    /// The motions that change it at the least cost.
+    way: Vec<Vector>,
+}
+
+fn pairs(a: &[Vector], b: &[Vector]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| dot(*a, *b)).sum()
+}
+
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+impl Length {
+    /// Moves the motions to the nearest ones whose length is in the range.
+    fn hold(&self, motions: &mut [Vector]) {
+        let length = self.at + pairs(&self.gradient, motions);
+        let excess = length - length.clamp(self.range[0], self.range[1]);
+        let slope = pairs(&self.gradient, &self.way);
+        if excess != 0.0 && slope > 0.0 {
+            let share = -excess / slope;
+            motions
+                .iter_mut()
+                .zip(&self.way)
+                .for_each(|(x, way)| *x = add(*x, scaled(*way, share)));
+        }
+    }
+}
+
+/// A row over coordinates, applied.
+fn across(row: &[f64], cell: &Cell, by_pole: &[Vector]) -> f64 {
+    row.iter().zip(&cell.poles).map(|(x, &i)| x * by_pole[i / 3][i % 3]).sum()
+}
+
+/// A linear form: unknowns and their factors.
+type Form = Vec<(usize, f64)>;
+
+fn applied(form: &Form, motions: &[Vector]) -> Vector {
+    form.iter().fold([0.0; 3], |sum, &(k, x)| add(sum, scaled(motions[k], x)))
 }
 
 /// Poles on their way.
@@ -76,7 +152,47 @@ pub fn differences(a: &[Vector], b: &[Vector]) -> Vec<Vector> {
 impl Problem<'_> {
     /// Energy and cost of moving.
     pub fn value(&self, poles: &[Vector], old: &[Vector]) -> f64 {
-        self.energy.value(poles) + self.distance.value(&differences(poles, old))
+        let slope = self.slope.as_ref().map_or(0.0, |slope| slope.value(poles));
+        self.energy.value(poles) + self.distance.value(&differences(poles, old)) + slope
+    }
+
+    /// Unknown numbers a pole that have equations in common: the slope of the curvature couples the coordinates.
+    fn width(&self) -> usize {
+        if self.slope.is_some() { 3 } else { 1 }
+    }
+
+    /// The squares that stand for the slope at these poles, over coordinates; `held` is the share of what holds the parameters.
+    fn model(&self, poles: &[Vector], held: f64) -> Vec<Cell> {
+        let Some(slope) = &self.slope else { return Vec::new() };
+        let mut cells = slope.near(poles);
+        let root = held.sqrt();
+        for cell in slope.model(poles).0 {
+            cells.extend((0..3).map(|axis| Cell {
+                poles: cell.poles.iter().map(|i| 3 * i + axis).collect(),
+                rows: cell.rows.iter().map(|x| root * x).collect(),
+            }));
+        }
+        cells
+    }
+
+    /// The equations at the present poles: matrix and right-hand side.
+    fn equations(&self, state: &State, held: f64) -> Result<(Envelope, Vec<Vector>), Error> {
+        let model = self.model(&state.poles, held);
+        let mut pull = self.energy.gradient(&state.old);
+        if let Some(slope) = &self.slope {
+            let moved = differences(&state.poles, &state.old);
+            let own = slope.gradient(&state.poles);
+            pull.iter_mut().zip(own).for_each(|(x, a)| *x = add(*x, a));
+            for cell in &model {
+                for row in cell.rows.chunks_exact(cell.poles.len()) {
+                    let whole = across(row, cell, &moved);
+                    for (x, &i) in row.iter().zip(&cell.poles) {
+                        pull[i / 3][i % 3] -= x * whole;
+                    }
+                }
+            }
+        }
+        Ok((self.matrix(&model)?, self.gather(&pull)))
     }
 
     /// Calls `run`, and again with larger balls while `proven`, the deviation that is proven, leaves room: the balls alone
@@ -111,7 +227,7 @@ impl Problem<'_> {
         Ok(best)
     }
 
-    /// Runs at most `steps` steps; true when the last ones gained nothing.
+    /// Solves at most `steps` times; true when the last steps gained nothing.
     ///
     /// # Errors
     /// Memory that could not be had; [`Error::Cancelled`].
@@ -119,154 +235,238 @@ impl Problem<'_> {
         if self.count == 0 {
             return Ok(true);
         }
-        let matrix = self.matrix()?;
-        let pull = self.gather(&self.energy.gradient(&state.old));
-        let diagonal = self.diagonal();
-        let mean = diagonal.iter().sum::<f64>() / self.count as f64;
-        let (mut low, mut high) = (-14.0, 8.0);
-        let mut multipliers = vec![0.0; self.count];
-        for k in 0..steps.min(UNIFORM_TRIES) {
-            let exponent = if k == 0 { low } else { 0.5 * (low + high) };
-            for (m, d) in multipliers.iter_mut().zip(&diagonal) {
-                *m = d.max(1e-6 * mean) * 10f64.power(exponent);
-            }
-            let reach = self.step(&matrix, &pull, &multipliers, state)?.1;
-            if reach <= 1.0 {
-                high = exponent
-            } else {
-                low = exponent
-            }
-            if k == 0 && reach <= 1.0 {
-                break;
-            }
-        }
+        let tube = self.tube();
+        let (mut held, width) = (HELD[1], self.width());
+        let mut equations = self.equations(state, held)?;
+        let diagonal = |k| equations.0.diagonal(k) / width as f64;
+        let stiff: f64 = (0..self.count * width).map(diagonal).sum();
+        let squares: f64 = tube.iter().flatten().map(|(_, x)| x * x).sum();
+        let mut penalty = 1e-3 * stiff / squares.max(f64::MIN_POSITIVE);
+        let Some(mut factor) = self.factor(&equations.0, &tube, penalty)? else { return Ok(false) };
+        let mut length = self.length(state, &factor, 0);
+        let present = self.gather_mean(&differences(&state.poles, &state.old));
+        let mut inside: Vec<Vector> = tube.iter().map(|form| applied(form, &present)).collect();
+        let mut shift = vec![[0.0; 3]; tube.len()];
         let mut idle = 0;
-        for _ in UNIFORM_TRIES..steps {
-            let before = state.last();
-            let (motions, _) = self.step(&matrix, &pull, &multipliers, state)?;
-            for (m, d) in multipliers.iter_mut().zip(&motions) {
-                let ratio = (norm(*d) / self.radius).clamp(0.05, 20.0);
-                *m = (*m * ratio).max(mean * 1e-16);
+        for k in 1..=steps {
+            if (self.poll)() {
+                return Err(Error::Cancelled);
             }
-            idle = if before - state.last() > LEAST_GAIN * before { 0 } else { idle + 1 };
-            if idle >= PATIENCE {
-                return Ok(true);
+            let targets: Vec<Vector> = differences(&inside, &shift);
+            let mut motions = self.solution(&factor, &equations.1, (&tube, &targets), penalty);
+            if let Some(length) = &length {
+                length.hold(&mut motions);
+            }
+            let (mut primal, mut dual) = ([0.0f64; 2], [0.0f64; 2]);
+            let mut reach = 0.0f64;
+            for ((form, z), y) in tube.iter().zip(&mut inside).zip(&mut shift) {
+                let here = applied(form, &motions);
+                let relaxed = add(scaled(here, RELAXED), scaled(*z, 1.0 - RELAXED));
+                let free = add(relaxed, *y);
+                let far = norm(free) / self.radius;
+                let cut = if far > 1.0 { scaled(free, 1.0 / far) } else { free };
+                primal = [primal[0].max(norm(sub(here, cut))), primal[1].max(norm(here))];
+                dual = [dual[0].max(norm(sub(cut, *z))), dual[1].max(norm(sub(free, cut)))];
+                (*y, *z) = (sub(free, cut), cut);
+                reach = reach.max(norm(here) / self.radius);
+            }
+            if k % EVERY == 0 || k == steps {
+                let before = state.last();
+                let share = self.go(state, &motions, reach);
+                let is_idle = before - state.last() <= LEAST_GAIN * before;
+                idle = if is_idle { idle + 1 } else { 0 };
+                if idle >= PATIENCE {
+                    return Ok(true);
+                }
+                if self.slope.is_some() {
+                    let change = if share > 0.5 { 0.2 } else { 4.0 };
+                    held = (held * change).clamp(HELD[0], HELD[2]);
+                    equations = self.equations(state, held)?;
+                }
+            }
+            let is_new = k % EVERY == 0 && self.slope.is_some();
+            let share = |[a, b]: [f64; 2]| if b > 0.0 { a / b } else { 0.0 };
+            // Where the tube holds nothing back, its penalty does and must go.
+            let is_free = dual[1] == 0.0;
+            let ratio =
+                if is_free { 0.0 } else { (share(primal) / share(dual).max(1e-300)).sqrt() };
+            let is_unbalanced =
+                k % BALANCED == 0 && ratio.is_finite() && !(0.4..=2.5).contains(&ratio);
+            if is_unbalanced {
+                let change = ratio.clamp(0.05, 20.0);
+                penalty *= change;
+                shift.iter_mut().for_each(|y| *y = scaled(*y, 1.0 / change));
+            }
+            if is_new || is_unbalanced {
+                let Some(next) = self.factor(&equations.0, &tube, penalty)? else {
+                    return Ok(false);
+                };
+                factor = next;
+            }
+            if k % EVERY == 0 || is_unbalanced {
+                length = self.length(state, &factor, k / EVERY);
             }
         }
         Ok(false)
     }
 
-    /// One solution and the step towards it: the motions of the unknowns, and the greatest one in radii.
-    fn step(
-        &mut self,
-        matrix: &Envelope,
-        pull: &[Vector],
-        multipliers: &[f64],
-        state: &mut State,
-    ) -> Result<(Vec<Vector>, f64), Error> {
-        if (self.poll)() {
-            return Err(Error::Cancelled);
-        }
-        let Some(motions) = self.solution(matrix, pull, multipliers)? else {
-            return Ok((vec![[0.0; 3]; self.count], f64::INFINITY));
-        };
-        let reach = motions.iter().map(|d| norm(*d)).fold(0.0, f64::max) / self.radius;
-        let cut = |d: Vector| {
-            let far = if self.kept.is_empty() { norm(d) / self.radius } else { reach };
-            if far > 1.0 { scaled(d, (1.0 - 1e-12) / far) } else { d }
-        };
+    /// The arc length about the present poles. It is no linear function: the range is narrower, and less so after each step.
+    fn length(&self, state: &State, factor: &Factor, steps: usize) -> Option<Length> {
+        let limit = self.length.as_ref()?;
+        let (now, gradient) = limit.with_gradient(&state.poles);
+        let moved = differences(&state.poles, &state.old);
+        let at = now - pairs(&gradient, &moved);
+        let [low, high] = limit.range;
+        let margin = 0.2 * (high - low) * 0.7f64.powi(steps.min(60) as i32);
+        let gradient = self.gather(&gradient);
+        let way = self.applied(factor, &gradient);
+        Some(Length { gradient, at, range: [low + margin, high - margin], way })
+    }
+
+    /// Goes towards the poles with these motions, shrunk into the tube; gives the share of the way.
+    fn go(&self, state: &mut State, motions: &[Vector], reach: f64) -> f64 {
+        let share = if reach > 1.0 { (1.0 - 1e-12) / reach } else { 1.0 };
         let goal: Vec<Vector> = (0..state.old.len())
             .map(|i| match self.unknowns[i] {
-                Some(k) => add(state.old[i], cut(motions[k])),
+                Some(k) => add(state.old[i], scaled(motions[k], share)),
                 None => state.old[i],
             })
             .collect();
-        self.advance(state, &goal);
-        Ok((motions, reach))
+        self.advance(state, &goal)
     }
 
-    /// Goes from the present poles towards `goal`, to the least energy on the way; nowhere, and false, when it would rise.
-    pub fn advance(&self, state: &mut State, goal: &[Vector]) -> bool {
+    /// Goes from the present poles towards `goal`, to the least energy on the way; gives the share of it, 0 when the energy would rise.
+    pub fn advance(&self, state: &mut State, goal: &[Vector]) -> f64 {
         let way = differences(goal, &state.poles);
-        let pairs =
-            |a: &[Vector], b: &[Vector]| -> f64 { a.iter().zip(b).map(|(a, b)| dot(*a, *b)).sum() };
         let moved = differences(&state.poles, &state.old);
-        let slope = pairs(&self.energy.gradient(&state.poles), &way)
+        let mut slope = pairs(&self.energy.gradient(&state.poles), &way)
             + pairs(&self.distance.gradient(&moved), &way);
-        let bend = self.energy.value(&way) + self.distance.value(&way);
+        let mut bend = self.energy.value(&way) + self.distance.value(&way);
+        if let Some(energy) = &self.slope {
+            slope += pairs(&energy.gradient(&state.poles), &way);
+            let square = |cell: &Cell| -> f64 {
+                let rows = cell.rows.chunks_exact(cell.poles.len());
+                rows.map(|row| across(row, cell, &way)).map(|x| x * x).sum()
+            };
+            bend += energy.near(&state.poles).iter().map(square).sum::<f64>();
+        }
         let mut share = if bend > 0.0 { (-slope / bend).clamp(0.0, 1.0) } else { 1.0 };
         for _ in 0..30 {
             if share <= 0.0 || share.is_nan() {
-                return false;
+                return 0.0;
             }
             let at = |(p, d): (&Vector, &Vector)| add(*p, scaled(*d, share));
             let poles: Vec<Vector> = state.poles.iter().zip(&way).map(at).collect();
             let value = self.value(&poles, &state.old);
-            if value < state.last() && (self.allowed)(&poles) {
+            let is_regular = self.slope.as_ref().is_none_or(|slope| slope.is_regular(&poles));
+            if value < state.last() && is_regular && (self.allowed)(&poles) {
                 state.poles = poles;
                 state.energies.push(value);
-                return true;
+                return share;
             }
             share *= 0.5;
         }
-        false
+        0.0
     }
 
-    /// The motions for given multipliers; none when the matrix is not definite.
-    fn solution(
+    /// The factored matrix with the penalty, and what keeps the kept forms; none when it is not definite.
+    fn factor(
         &self,
         matrix: &Envelope,
-        pull: &[Vector],
-        multipliers: &[f64],
-    ) -> Result<Option<Vec<Vector>>, Error> {
-        let mut factor = matrix.with_diagonal(multipliers, RIDGE)?;
+        tube: &[Form],
+        penalty: f64,
+    ) -> Result<Option<Factor>, Error> {
+        let width = self.width();
+        let mut factor = matrix.copied()?;
+        for form in tube {
+            for (n, &(i, x)) in form.iter().enumerate() {
+                for &(j, y) in &form[..=n] {
+                    for axis in 0..width {
+                        factor.add(width * i + axis, width * j + axis, penalty * x * y);
+                    }
+                }
+            }
+        }
+        factor.add_ridge(RIDGE);
         if !factor.factorise() {
             return Ok(None);
         }
-        let mut motions = vec![[0.0; 3]; self.count];
-        for axis in 0..3 {
-            let mut b: Vec<f64> = pull.iter().map(|g| -g[axis]).collect();
-            factor.solve(&mut b);
-            for (motion, x) in motions.iter_mut().zip(b) {
-                motion[axis] = x;
-            }
-        }
-        Ok(if self.keep(&factor, &mut motions) { Some(motions) } else { None })
-    }
-
-    /// Makes the kept linear forms of the motion vanish, at the least cost in the norm of the factored matrix.
-    fn keep(&self, factor: &Envelope, motions: &mut [Vector]) -> bool {
-        let rows: Vec<Vec<f64>> = self.kept.iter().map(|cell| self.row(cell)).collect();
+        let axes = (0..width).flat_map(|axis| self.kept.iter().map(move |cell| (cell, axis)));
+        let rows: Vec<Vec<f64>> = axes.map(|(cell, axis)| self.row(cell, axis)).collect();
         let mut solved = rows.clone();
         solved.iter_mut().for_each(|row| factor.solve(row));
-        let n = rows.len();
-        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        let Ok(mut schur) = Envelope::new(vec![0; n]) else { return false };
-        for i in 0..n {
+        let mut schur = Envelope::new(vec![0; rows.len()])?;
+        for i in 0..rows.len() {
             for j in 0..=i {
                 schur.add(i, j, product(&rows[i], &solved[j]));
             }
         }
         if !schur.factorise() {
-            return false;
+            return Ok(None);
         }
-        for axis in 0..3 {
-            let along: Vec<f64> = motions.iter().map(|d| d[axis]).collect();
-            let mut b: Vec<f64> = rows.iter().map(|row| product(row, &along)).collect();
-            schur.solve(&mut b);
-            for (row, x) in solved.iter().zip(&b) {
-                motions.iter_mut().zip(row).for_each(|(d, r)| d[axis] -= r * x);
-            }
-        }
-        true
+        Ok(Some(Factor { width, factor, rows, solved, schur }))
     }
 
-    /// A row over the poles as one over the unknowns.
-    fn row(&self, cell: &Cell) -> Vec<f64> {
-        let mut row = vec![0.0; self.count];
+    /// The motions for the present targets of the tube; the kept forms of them vanish, at the least cost.
+    fn solution(
+        &self,
+        factor: &Factor,
+        pull: &[Vector],
+        (tube, targets): (&[Form], &[Vector]),
+        penalty: f64,
+    ) -> Vec<Vector> {
+        let mut right: Vec<Vector> = pull.iter().map(|g| scaled(*g, -1.0)).collect();
+        for (form, target) in tube.iter().zip(targets) {
+            for &(k, x) in form {
+                right[k] = add(right[k], scaled(*target, penalty * x));
+            }
+        }
+        self.applied(factor, &right)
+    }
+
+    /// The factored equations solved for a right-hand side; the kept forms of the motions vanish, at the least cost.
+    fn applied(&self, factor: &Factor, right: &[Vector]) -> Vec<Vector> {
+        let mut motions = vec![[0.0; 3]; self.count];
+        let width = factor.width;
+        for first in (0..3).step_by(width) {
+            let mut b: Vec<f64> =
+                right.iter().flat_map(|g| &g[first..first + width]).copied().collect();
+            factor.factor.solve(&mut b);
+            let mut excess: Vec<f64> = factor.rows.iter().map(|row| product(row, &b)).collect();
+            factor.schur.solve(&mut excess);
+            for (row, x) in factor.solved.iter().zip(&excess) {
+                b.iter_mut().zip(row).for_each(|(d, r)| *d -= r * x);
+            }
+            for (motion, x) in motions.iter_mut().zip(b.chunks_exact(width)) {
+                motion[first..first + width].copy_from_slice(x);
+            }
+        }
+        motions
+    }
+
+    /// The forms of the tube over the unknowns; those of poles that stay have none.
+    fn tube(&self) -> Vec<Form> {
+        let form = |cell: &Cell| {
+            let mut form: Form = Vec::with_capacity(cell.poles.len());
+            for (&x, &i) in cell.rows.iter().zip(&cell.poles) {
+                let Some(k) = self.unknowns[i].filter(|_| x != 0.0) else { continue };
+                match form.iter_mut().find(|entry| entry.0 == k) {
+                    Some(entry) => entry.1 += x,
+                    None => form.push((k, x)),
+                }
+            }
+            form
+        };
+        self.tubes.iter().map(form).filter(|form| !form.is_empty()).collect()
+    }
+
+    /// A row over the poles as one over the unknown numbers of one axis.
+    fn row(&self, cell: &Cell, axis: usize) -> Vec<f64> {
+        let width = self.width();
+        let mut row = vec![0.0; self.count * width];
         for (x, &i) in cell.rows.iter().zip(&cell.poles) {
             if let Some(k) = self.unknowns[i] {
-                row[k] += x;
+                row[width * k + axis] += x;
             }
         }
         row
@@ -283,6 +483,17 @@ impl Problem<'_> {
         sums
     }
 
+    /// The motion of each unknown: its poles have the same.
+    fn gather_mean(&self, by_pole: &[Vector]) -> Vec<Vector> {
+        let mut motions = vec![[0.0; 3]; self.count];
+        for (x, unknown) in by_pole.iter().zip(&self.unknowns) {
+            if let Some(k) = unknown {
+                motions[*k] = *x;
+            }
+        }
+        motions
+    }
+
     /// Half the second derivative by each unknown, but for what two poles of one have in common.
     pub fn diagonal(&self) -> Vec<f64> {
         let mut sums = vec![0.0; self.count];
@@ -297,31 +508,42 @@ impl Problem<'_> {
         sums
     }
 
-    /// The matrix of energy and distance over the unknowns.
-    fn matrix(&self) -> Result<Envelope, Error> {
+    /// The matrix of energy, distance and the model of the slope over the unknown numbers.
+    fn matrix(&self, model: &[Cell]) -> Result<Envelope, Error> {
+        let width = self.width();
         let cells = || self.energy.0.iter().chain(&self.distance.0);
         let mut first: Vec<usize> = (0..self.count).collect();
-        for cell in cells() {
-            let unknowns = || cell.poles.iter().filter_map(|&i| self.unknowns[i]);
-            let Some(least) = unknowns().min() else { continue };
-            unknowns().for_each(|k| first[k] = first[k].min(least));
-        }
+        let mut reach = |poles: &mut dyn Iterator<Item = usize>| {
+            let unknowns: Vec<usize> = poles.filter_map(|i| self.unknowns[i]).collect();
+            let Some(&least) = unknowns.iter().min() else { return };
+            unknowns.iter().for_each(|&k| first[k] = first[k].min(least));
+        };
+        cells().chain(&self.tubes).for_each(|cell| reach(&mut cell.poles.iter().copied()));
+        model.iter().for_each(|cell| reach(&mut cell.poles.iter().map(|i| i / 3)));
+        let first = first.iter().flat_map(|k| vec![width * k; width]).collect();
         let mut matrix = Envelope::new(first)?;
         for cell in cells() {
-            let n = cell.poles.len();
-            for a in 0..n {
-                for b in 0..=a {
-                    let (Some(i), Some(j)) =
-                        (self.unknowns[cell.poles[a]], self.unknowns[cell.poles[b]])
-                    else {
-                        continue;
-                    };
-                    let x: f64 = cell.rows.chunks_exact(n).map(|row| row[a] * row[b]).sum();
-                    // Two poles with one unknown meet on its diagonal twice.
-                    matrix.add(i, j, if a != b && i == j { 2.0 * x } else { x });
-                }
+            for axis in 0..width {
+                Self::add_squares(cell, &|i| Some(width * self.unknowns[i]? + axis), &mut matrix);
             }
         }
+        for cell in model {
+            Self::add_squares(cell, &|i| Some(3 * self.unknowns[i / 3]? + i % 3), &mut matrix);
+        }
         Ok(matrix)
+    }
+
+    /// Adds the squares of the rows of a cell, whose entries have these unknown numbers.
+    fn add_squares(cell: &Cell, unknown: &dyn Fn(usize) -> Option<usize>, matrix: &mut Envelope) {
+        let n = cell.poles.len();
+        let places: Vec<Option<usize>> = cell.poles.iter().map(|&i| unknown(i)).collect();
+        for a in 0..n {
+            for b in 0..=a {
+                let (Some(i), Some(j)) = (places[a], places[b]) else { continue };
+                let x: f64 = cell.rows.chunks_exact(n).map(|row| row[a] * row[b]).sum();
+                // Two poles with one unknown meet on its diagonal twice.
+                matrix.add(i, j, if a != b && i == j { 2.0 * x } else { x });
+            }
+        }
     }
 }

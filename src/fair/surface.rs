@@ -1,7 +1,7 @@
 //! Fairing of surfaces.
 
 use super::curve::{check_deviation, check_number, quarters, repeats, wrapped};
-use super::rows::{Cell, Functional, hull_deviation, knot_jumps, surface_energy};
+use super::rows::{Cell, Functional, hull_deviation, knot_jumps, refinement, surface_energy};
 use super::solve::{Problem, State, differences};
 use super::{Faired, Method};
 use crate::bounds::Vector;
@@ -15,6 +15,9 @@ const MOST_ENTRIES: usize = 1 << 28;
 
 /// Poles up to which the proof is sharpened by inserted knots.
 const SHARPEN_UP_TO: usize = 40_000;
+
+/// Poles up to which forms over quartered spans are held in the deviation: beyond, each pole is.
+const TUBE_UP_TO: usize = 5_000;
 
 /// What a surface is faired for, and what must stay.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,7 +52,7 @@ impl SurfaceFairing {
             deviation,
             borders: [2; 4],
             region: None,
-            steps: 40,
+            steps: 150,
         }
     }
 }
@@ -174,6 +177,36 @@ fn knot_lines(surface: &Surface) -> (Functional, Vec<Vec<usize>>) {
     (Functional(cells), lines)
 }
 
+/// The poles of a motion over quartered spans; over the spans themselves where the proof does not cut them.
+fn tubes(surface: &Surface) -> Vec<Cell> {
+    let (ku, kv) = (surface.knots_u(), surface.knots_v());
+    let (count, stride) = (surface.poles().len(), kv.pole_count());
+    let fine = |knots: &Knots| refinement(knots, &quarters(knots));
+    let (Some(us), Some(vs), true) = (fine(ku), fine(kv), count <= TUBE_UP_TO) else {
+        return (0..count).map(|i| Cell { poles: vec![i], rows: vec![1.0] }).collect();
+    };
+    let weight = |i: usize| surface.weights().map_or(1.0, |w| w[i]);
+    let mut cells = Vec::with_capacity(us.len() * vs.len());
+    for (first_u, row_u) in &us {
+        for (first_v, row_v) in &vs {
+            let (mut poles, mut rows) = (Vec::new(), Vec::new());
+            for (a, x) in row_u.iter().enumerate() {
+                for (b, y) in row_v.iter().enumerate() {
+                    let i = (first_u + a) * stride + first_v + b;
+                    if x * y != 0.0 {
+                        poles.push(i);
+                        rows.push(x * y * weight(i));
+                    }
+                }
+            }
+            let sum: f64 = rows.iter().sum();
+            rows.iter_mut().for_each(|x| *x /= sum);
+            cells.push(Cell { poles, rows });
+        }
+    }
+    cells
+}
+
 /// How far no point of the surface with other poles has moved, proven: the hull of the difference after each span has been
 /// cut in four.
 fn proven_deviation(surface: &Surface, new: &[Vector]) -> Result<f64, Error> {
@@ -234,8 +267,20 @@ pub fn fair_surface(
     }
     let allowed = |_: &[Vector]| true;
     let kept = Vec::new();
-    let mut problem =
-        Problem { energy, distance, unknowns, count, kept, radius, allowed: &allowed, poll };
+    let tubes = if fairing.method == Method::Energy { tubes(surface) } else { Vec::new() };
+    let mut problem = Problem {
+        energy,
+        distance,
+        slope: None,
+        unknowns,
+        count,
+        kept,
+        tubes,
+        radius,
+        length: None,
+        allowed: &allowed,
+        poll,
+    };
     let mut run = |problem: &mut Problem, state: &mut State| match fairing.method {
         Method::Energy => problem.run(state, fairing.steps),
         Method::Local => problem.run_local(state, fairing.steps),

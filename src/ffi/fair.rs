@@ -61,7 +61,8 @@ pub struct fpt_fair_options {
     pub through: *const f64,
     /// See through.
     pub through_count: usize,
-    /// Curves: `knot_count` knots that FPT_FAIR_KNOT_REMOVAL may fair. NULL: all inner ones.
+    /// Curves: `knot_count` knots that FPT_FAIR_KNOT_REMOVAL and FPT_FAIR_LOCAL may fair: of each the pole in the middle of its jump
+    /// moves. NULL: all inner ones, with FPT_FAIR_LOCAL all poles.
     pub knots: *const f64,
     /// See knots.
     pub knot_count: usize,
@@ -69,14 +70,19 @@ pub struct fpt_fair_options {
     pub length: [f64; 2],
     /// Surfaces: only the part u0,u1,v0,v1 changes. All 0: the whole surface.
     pub region: [f64; 4],
-    /// Steps at most; 0: the default, 60 (curves), 40 (surfaces).
+    /// Solutions of the equations at most, five a step (local methods: steps, eight a pole at least); 0: the default, 300 (curves), 150
+    /// (surfaces).
     pub steps: u32,
-    /// Must be 0.
-    pub reserved: u32,
+    /// Planar curves, FPT_FAIR_ENERGY: 1: no more changes of the side to which the curve bends than the curve of least jerk by length
+    /// has that the constraints allow; as much of that energy is added as this takes. 0: only the energy asked for. Default 1.
+    pub calm: u32,
     /// Asked on the calling thread between steps; non-zero ends the call with FPT_CANCELLED. NULL: never.
     pub should_stop: Option<unsafe extern "C" fn(user: *mut c_void) -> c_int>,
     /// Handed to should_stop as it is.
     pub user: *mut c_void,
+    /// Curves, FPT_FAIR_ENERGY: weight of the integral of the squared change of the curvature vector along the arc length of the curve
+    /// as it becomes: (dk/ds)^2 of planar curves, (dk/ds)^2 + k^2 tau^2 in space; finite, >= 0. Default 0.
+    pub slope: f64,
 }
 
 // SAFETY: repr(C), begins with struct_size; numbers, raw pointers and nullable function pointers.
@@ -103,9 +109,10 @@ unsafe impl SelfSized for fpt_fair_options {
             length: [0.0; 2],
             region: [0.0; 4],
             steps: 0,
-            reserved: 0,
+            calm: 1,
             should_stop: None,
             user: std::ptr::null_mut(),
+            slope: 0.0,
         }
     }
 }
@@ -195,11 +202,10 @@ fn orders<const N: usize>(given: [u32; N]) -> [usize; N] {
 unsafe fn read(options: *const fpt_fair_options) -> Result<fpt_fair_options, Failure> {
     // SAFETY: the caller vouches for it.
     let given = unsafe { sized_or_default("options", options) }?;
-    if given.reserved != 0 {
-        return Err(Failure::invalid(format!("reserved: {} must be 0", given.reserved)));
-    }
-    if given.by_length > 1 {
-        return Err(Failure::invalid(format!("by_length: {} is not 0 or 1", given.by_length)));
+    for (name, value) in [("calm", given.calm), ("by_length", given.by_length)] {
+        if value > 1 {
+            return Err(Failure::invalid(format!("{name}: {value} is not 0 or 1")));
+        }
     }
     Ok(given)
 }
@@ -225,6 +231,7 @@ pub unsafe extern "C" fn fpt_fair_curve(
             method: method(given.method)?,
             strain: given.strain,
             jerk: given.jerk,
+            slope: given.slope,
             distance: given.distance,
             by_length: given.by_length == 1,
             deviation: given.deviation,
@@ -233,7 +240,8 @@ pub unsafe extern "C" fn fpt_fair_curve(
             through: array("through", given.through, given.through_count)?.to_vec(),
             knots: array("knots", given.knots, given.knot_count)?.to_vec(),
             length: (given.length != [0.0; 2]).then_some(given.length),
-            steps: if given.steps > 0 { given.steps as usize } else { 60 },
+            calm: given.calm == 1,
+            steps: if given.steps > 0 { given.steps as usize } else { 300 },
         };
         let callbacks = Callbacks::stopping(given.should_stop, given.user);
         let out = place("out", out)?;
@@ -269,7 +277,7 @@ pub unsafe extern "C" fn fpt_fair_surface(
             deviation: given.deviation,
             borders: orders(given.borders),
             region: (given.region != [0.0; 4]).then_some(given.region),
-            steps: if given.steps > 0 { given.steps as usize } else { 40 },
+            steps: if given.steps > 0 { given.steps as usize } else { 150 },
         };
         let callbacks = Callbacks::stopping(given.should_stop, given.user);
         let out = place("out", out)?;

@@ -8,6 +8,7 @@ use super::query::Callbacks;
 use super::surface::fpt_surface;
 use super::{Failure, fpt_status, guard};
 use crate::curve::Curve;
+use crate::curve::insertion::copy_of;
 use crate::error::Error;
 use crate::fit::{
     Certificate, Condition, Ends, Fit, Grid, GridOptions, NearOptions, Spacing, adaptive_grid,
@@ -335,7 +336,7 @@ pub unsafe extern "C" fn fpt_curve_interpolate(
         let periodic = matches!(given.condition, fpt_fit_condition::FPT_FIT_PERIODIC);
         let list = optional_array("parameters", parameters, count + usize::from(periodic))?;
         let own = match list {
-            Some(list) => list.to_vec(),
+            Some(list) => copy_of(list)?,
             None if periodic && count > 0 => {
                 let turn = [points, &points[..1]].concat();
                 crate::fit::parameters(given.spacing, &turn)?
@@ -434,7 +435,7 @@ pub unsafe extern "C" fn fpt_curve_fit(
         let points = points_of(points, count)?;
         let given = Given::read(options)?;
         let own = match optional_array("parameters", parameters, count)? {
-            Some(list) => list.to_vec(),
+            Some(list) => copy_of(list)?,
             None => crate::fit::parameters(given.spacing, points)?,
         };
         let (out, result) = (place("out", out)?, wanted(result)?);
@@ -567,7 +568,7 @@ pub unsafe extern "C" fn fpt_surface_fit(
         let given = Given::read(options)?;
         let list = optional_array("parameters", parameters.cast::<[f64; 2]>(), count)?;
         let own = match list {
-            Some(list) => list.to_vec(),
+            Some(list) => copy_of(list)?,
             None => plane_parameters(points)?,
         };
         let (out, result) = (place("out", out)?, wanted(result)?);

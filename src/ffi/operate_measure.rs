@@ -7,6 +7,7 @@ use super::operate_curve::hand_over;
 use super::operate_surface::{self, read_direction};
 use super::surface::{self, fpt_surface};
 use super::{Failure, fpt_status, guard};
+use crate::curve::insertion::copy_of;
 use crate::knots::Side;
 use crate::operate::{ArcLength, Crease, Joint, PowerCurve, PowerSurface};
 
@@ -354,7 +355,7 @@ pub unsafe extern "C" fn fpt_curve_from_power(
         check_degree("degree", degree, degree.saturating_add(1))?;
         let coefficients = array("coefficients", coefficients.cast::<[f64; 4]>(), degree + 1)?;
         let out = place("out", out)?;
-        let power = PowerCurve { domain: [start, end], coefficients: coefficients.to_vec() };
+        let power = PowerCurve { domain: [start, end], coefficients: copy_of(coefficients)? };
         hand_over(crate::curve::Curve::from_power(&power)?, out)
     })
 }
@@ -437,7 +438,7 @@ pub unsafe extern "C" fn fpt_surface_from_power(
         check_degree("degree_v", degree_v, degree_v.saturating_add(1))?;
         let domain = operate_surface::four("domain", domain)?;
         let count = (degree_u + 1) * (degree_v + 1);
-        let coefficients = array("coefficients", coefficients.cast::<[f64; 4]>(), count)?.to_vec();
+        let coefficients = copy_of(array("coefficients", coefficients.cast::<[f64; 4]>(), count)?)?;
         let out = place("out", out)?;
         let power = PowerSurface { domain, degree: [degree_u, degree_v], coefficients };
         operate_surface::hand_over(crate::surface::Surface::from_power(&power)?, out)

@@ -9,6 +9,7 @@ use super::parameters::{averaged_knots, check_parameters, check_points, paramete
 use super::triangle::zeros;
 use super::{Adaptive, Ends, INTERPOLATION_TOLERANCE, Spacing, point, rising, solve};
 use crate::bounds::{Vector, norm, sub};
+use crate::curve::insertion::spare;
 use crate::error::Error;
 use crate::knots::{Knots, MAX_DEGREE};
 use crate::surface::Surface;
@@ -240,6 +241,8 @@ pub fn interpolate_grid(
     grid: &Grid,
 ) -> Result<SheetFit, Error> {
     grid.check(parameters)?;
+    // Poles of either step, the surface, and residuals.
+    spare(grid.points.len(), 8 * size_of::<Vector>())?;
     for k in 0..2 {
         let (degree, count) = (degrees[k], grid.counts[k]);
         let name = ["_u", "_v"][k];

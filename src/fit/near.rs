@@ -22,6 +22,7 @@ use crate::analytic::linear::{add_square, any_frame, least_direction};
 use crate::bounds::{Vector, dot, norm, sub};
 use crate::closest::{FootPoint, QueryOptions, Scope, Workspace};
 use crate::curve::Curve;
+use crate::curve::insertion::spare;
 use crate::error::Error;
 use crate::index::{IndexedCurve, IndexedSurface};
 use crate::knots::{Knots, MAX_DEGREE};
@@ -102,6 +103,8 @@ pub fn curve_near(
     check_options(options, 1)?;
     check_points(points, 2)?;
     check_parameters(parameters, points.len())?;
+    // Feet, residuals, knots and poles, and the certificate.
+    spare(points.len(), 512)?;
     let degree = options.degrees[0];
     let (start, end) = (parameters[0], parameters[points.len() - 1]);
     let adaptive = Adaptive { degree, tolerance: options.tolerance, ..Adaptive::default() };

@@ -1,5 +1,6 @@
 //! Parameters for points in order, and knots for parameters.
 
+use crate::curve::insertion::spare;
 use crate::error::Error;
 use crate::portable::SameDigits;
 
@@ -28,6 +29,8 @@ pub fn parameters<const N: usize>(
     points: &[[f64; N]],
 ) -> Result<Vec<f64>, Error> {
     check_points(points, 2)?;
+    // A list that grows by doubling.
+    spare(points.len(), 3 * size_of::<f64>())?;
     let step = |pair: &[[f64; N]]| match spacing {
         Spacing::Uniform => 1.0,
         Spacing::Chordal => distance(&pair[0], &pair[1]),

@@ -18,8 +18,11 @@
 //! distance zero of what is beside it: there K is infinite, and the search has to do without. `docs/rounding.md`, section
 //! 21, has the proof.
 
+mod arc;
 mod cell;
+mod curve;
 mod field;
+mod groups;
 mod oriented;
 mod raster;
 
@@ -27,6 +30,7 @@ use super::patch::Patch;
 use super::piece::reserved;
 use crate::error::Error;
 pub use cell::{Cell, push_cells};
+pub use curve::CurveReach;
 use field::Field;
 pub use raster::Raster;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -74,7 +78,7 @@ impl Reach {
                 if stop.load(Ordering::Relaxed) || k >= tiles.len() {
                     return;
                 }
-                if poll() {
+                if k > 0 && poll() {
                     return stop.store(true, Ordering::Relaxed);
                 }
                 let tile = tiles[k].lock().unwrap_or_else(PoisonError::into_inner).take();

@@ -4,6 +4,7 @@ use super::piece::{
     Frame, LocalNet, MAX_TENSOR_BYTES, Span, balance_for, parts_for, position_steps,
     power_of_two_over, push_tensors, reserved, tensor_len,
 };
+use super::reach::CurveReach;
 use crate::analytic::Analytic;
 use crate::bezier::{Bidegree, extraction};
 use crate::bounds::{Aabb, HALF_ULP, Vector, add, extent, sub};
@@ -41,6 +42,8 @@ pub struct CurveIndex {
     pub closed: bool,
     /// The line or circle that the curve is, if it is one.
     pub analytic: Option<Box<Analytic>>,
+    /// How far vectors across the curve may be followed; none for elementary shapes.
+    pub reach: Option<CurveReach>,
     degree: usize,
     rational: bool,
     nets: Vec<f64>,
@@ -69,6 +72,7 @@ impl CurveIndex {
             tree: Tree::new(&[], 0, 0, level),
             closed: curve.is_closed(),
             analytic: None,
+            reach: None,
             degree: p,
             rational,
             nets: reserved(spans.len() * width)?,
@@ -90,6 +94,17 @@ impl CurveIndex {
         }
         index.tree = Tree::new(&boxes, boxes.len(), 1, level);
         Ok(index)
+    }
+
+    /// Makes [`Self::reach`], once.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`], [`Error::Cancelled`].
+    pub fn measure_reach(&mut self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error> {
+        if self.analytic.is_none() {
+            self.reach = Some(CurveReach::new(self, poll)?);
+        }
+        Ok(())
     }
 
     fn push_segment(&mut self, curve: &Curve, (span, ends): (usize, [f64; 2])) -> Aabb {
@@ -182,6 +197,7 @@ impl CurveIndex {
             + self.tree.memory()
             + self.grid.memory()
             + self.analytic.as_ref().map_or(0, |analytic| analytic.memory())
+            + self.reach.as_ref().map_or(0, CurveReach::memory)
     }
 }
 

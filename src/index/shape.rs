@@ -1,6 +1,7 @@
 //! A shape together with its index, built once.
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::thread::ThreadId;
 
 use super::patches::HUGE;
 use super::{CurveIndex, SurfaceIndex};
@@ -17,11 +18,13 @@ pub type Poll<'a> = &'a mut dyn FnMut() -> bool;
 struct Once<T> {
     value: OnceLock<Box<T>>,
     building: Mutex<()>,
+    /// Who holds `building`: what is polled during the work may ask for the index too.
+    builder: Mutex<Option<ThreadId>>,
 }
 
 impl<T> Once<T> {
     fn new() -> Self {
-        Self { value: OnceLock::new(), building: Mutex::new(()) }
+        Self { value: OnceLock::new(), building: Mutex::new(()), builder: Mutex::new(None) }
     }
 
     fn get(&self) -> Option<&T> {
@@ -32,12 +35,30 @@ impl<T> Once<T> {
         if let Some(value) = self.get() {
             return Ok(value);
         }
-        let _only_one = self.building.lock().unwrap_or_else(PoisonError::into_inner);
-        if self.get().is_none() {
+        let me = Some(std::thread::current().id());
+        let builder = || self.builder.lock().unwrap_or_else(PoisonError::into_inner);
+        if *builder() == me {
+            // Asked from inside of its own building: waiting would never end, so it is built here as well.
             let value = Box::new(build()?);
             return Ok(self.value.get_or_init(|| value));
         }
-        self.get().ok_or(Error::OutOfMemory)
+        let _only_one = self.building.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(value) = self.get() {
+            return Ok(value);
+        }
+        *builder() = me;
+        let _end = OnDrop(|| *builder() = None);
+        let value = Box::new(build()?);
+        Ok(self.value.get_or_init(|| value))
+    }
+}
+
+/// Does something at the end of its scope, however that ends.
+struct OnDrop<F: FnMut()>(F);
+
+impl<F: FnMut()> Drop for OnDrop<F> {
+    fn drop(&mut self) {
+        (self.0)();
     }
 }
 
@@ -99,6 +120,7 @@ impl IndexedCurve {
             if !self.general {
                 index.recognise();
             }
+            index.measure_reach(poll)?;
             Ok(index)
         })
     }

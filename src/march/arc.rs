@@ -21,6 +21,9 @@ const CARE: f64 = 1.0 + 1e-4;
 const NODE: f64 = 1e-5;
 const SOLUTION: f64 = 1e-8;
 
+/// Steps of Newton at most.
+const MOST_STEPS: u32 = 12;
+
 /// How far a node may be off, in half widths.
 const OFF: f64 = 1e-9;
 
@@ -112,7 +115,7 @@ enum Failure {
     Bends,
 }
 
-/// Newton's iteration for the three others at `x`: where it ends, and the columns there, in half widths.
+/// Newton's iteration for the three others at `x`: where it ends, the columns there, and how far it may be off, in half widths.
 fn newton(
     pieces: [&Pieces; 2],
     patches: [u32; 2],
@@ -121,10 +124,10 @@ fn newton(
     x: f64,
     mut y: [f64; 3],
     enough: f64,
-) -> Option<([f64; 3], [Vector; 4])> {
+) -> Option<([f64; 3], [Vector; 4], f64)> {
     let o = others(k);
     let mut last = f64::INFINITY;
-    for _ in 0..12 {
+    for n in 1..=MOST_STEPS {
         let z = unit((middle, half), k, x, y);
         let (f, columns) = system(pieces[0], pieces[1], patches, z);
         let columns: [Vector; 4] = std::array::from_fn(|c| scaled(columns[c], half[c]));
@@ -140,8 +143,11 @@ fn newton(
         }
         // Quadratic from here: the next step would be below the last digit. Where the surfaces meet at a small angle, steps stop
         // falling at what the last digits are worth.
-        if moved < enough || (moved < 1e-3 && moved > 0.25 * last) {
-            return Some((y, columns));
+        if moved < enough {
+            return Some((y, columns, OFF));
+        }
+        if (moved < 1e-3 && moved >= last) || (n == MOST_STEPS && moved < 1e-6) {
+            return Some((y, columns, OFF + 4.0 * moved));
         }
         last = moved;
     }
@@ -212,7 +218,7 @@ impl Frame<'_> {
     /// The solution at `x`, proven to go on in the reach for `step` on both sides.
     fn node(&self, x: f64, guess: [f64; 3], step: f64) -> Result<Node, Failure> {
         let place = (self.middle, self.half);
-        let (y, columns) = newton(self.pieces, self.patches, place, self.k, x, guess, NODE)
+        let (y, columns, off) = newton(self.pieces, self.patches, place, self.k, x, guess, NODE)
             .ok_or(Failure::Leaves)?;
         if y.iter().any(|y| y.abs() > REACH) {
             return Err(Failure::Leaves);
@@ -250,7 +256,7 @@ impl Frame<'_> {
         }
         let reaches =
             |i: usize| y[i].abs() + CARE * (slope[i].abs() * step + 0.5 * bend[i] * step * step);
-        if (0..3).any(|i| reaches(i) > REACH - OFF) {
+        if (0..3).any(|i| reaches(i) > REACH - off) {
             return Err(Failure::Bends);
         }
         let mut k = [0.0; 4];

@@ -3,7 +3,7 @@
 use super::cluster::{Cluster, see};
 use super::join::{Place, Stop, distance_to_chord};
 use super::search::{Open, Search};
-use super::tangent::{Ridge, is_near};
+use super::tangent::{Ridge, is_near, unfollowed};
 use super::{Branch, Contact, ContactKind, End, Intersection, MarchPoint, Region};
 use crate::bounds::{norm, sub};
 use crate::closest::{QueryOptions, Workspace};
@@ -56,9 +56,11 @@ impl<'a, 'b> Maker<'a, 'b> {
         for pair in self.search.open.iter().filter(|pair| pair.why == Open::Area) {
             self.out.overlaps.push(region(pair.low, pair.high));
         }
+        let beside = unfollowed(self.search, ridges);
         for group in groups {
             let [area, curve, flat, budget] = group.has;
-            if area || (curve && !flat && !budget) {
+            let is_followed = !beside.iter().any(|&at| group.holds(at));
+            if area || (curve && !flat && !budget && is_followed) {
                 continue;
             }
             let seen = if budget { None } else { see(self.search, group) };

@@ -41,7 +41,10 @@ fn bends_of(net: &mut [Pole], degree: [usize; 2], rational: bool, radius: f64) -
     let second =
         [differences(net, degree, 0), differences(net, degree, 1), differences(net, degree, 2)];
     let boxes = if rational { quotient(net, degree, second)? } else { second.map(ranges) };
-    let growth = 2.1f64.powi((degree[0] + degree[1]) as i32) * 48.0 * HALF_ULP * radius;
+    let [p, q] = degree.map(|p| p as f64);
+    let second_order = (p * (p - 1.0)).max(q * (q - 1.0)).max(p * q) / (4.0 * REACH * REACH);
+    let units = (24.0 * (p + q) + 12.0) * second_order * if rational { 8.0 } else { 1.0 };
+    let growth = 2.1f64.powi((degree[0] + degree[1]) as i32) * units * HALF_ULP * radius;
     let middle = boxes.map(|range| range.map(|[low, high]| 0.5 * (low + high)));
     let spread = boxes.map(|range| range.map(|[low, high]| 0.5 * (high - low) + growth));
     let size = [0, 1, 2].map(|n| norm(middle[n]) + norm(spread[n]));

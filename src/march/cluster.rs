@@ -20,6 +20,13 @@ pub struct Cluster {
     pub size: f64,
 }
 
+impl Cluster {
+    /// Whether a place is in its box.
+    pub fn holds(&self, at: [f64; 4]) -> bool {
+        (0..4).all(|q| self.low[q] <= at[q] && at[q] <= self.high[q])
+    }
+}
+
 /// What is found in a small cluster.
 pub struct Seen {
     /// The place.

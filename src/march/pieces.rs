@@ -84,7 +84,19 @@ pub struct Pieces {
     pub error: f64,
 }
 
-fn extracted(knots: &Knots) -> Vec<(usize, [f64; 2], Vec<f64>)> {
+/// How far a pole of a part may be off, of patches whose poles are at most `radius` from their centres and `size` from the origin;
+/// `extracted`: degrees of the directions whose nets are not Bezier nets from the start; `most`: the greater degree: docs/rounding.md, section 23.
+fn rounding((extracted, most): (usize, usize), rational: bool, radius: f64, size: f64) -> f64 {
+    let (net, halving) = (6 * extracted + 4, most + 2);
+    // A weight has as much, and is divided by.
+    let (net, halving) = if rational { (2 * net + 1, 2 * halving + 2) } else { (net, halving) };
+    HALF_ULP * ((net + 10 * halving) as f64 * radius + 4.0 * size)
+}
+
+/// A span, its ends, and the matrix that takes its poles to Bezier poles.
+type Extracted = (usize, [f64; 2], Vec<f64>);
+
+fn extracted(knots: &Knots) -> Vec<Extracted> {
     let size = knots.degree() + 1;
     let make = |span: usize| {
         let ends = [knots.values()[span], knots.values()[span + 1]];
@@ -110,14 +122,27 @@ impl Pieces {
             parts: Vec::new(),
             error: 0.0,
         };
-        let size = surface.poles().iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
-        // Extraction and its application in two directions; halvings are relative to the part, which is smaller.
-        let steps = 8 * (degree[0] + degree[1] + 2);
-        pieces.error = steps as f64 * HALF_ULP * size;
+        let size = surface.poles().iter().fold(0.0f64, |m, &p| m.max(norm(p)));
+        let mut nets = Vec::with_capacity(us.len() * columns);
+        for (span_u, _, mu) in &us {
+            for (span_v, _, mv) in &vs {
+                nets.push(local_poles(surface, [*span_u, *span_v], mu, mv));
+            }
+        }
+        let radius = nets.iter().map(|(_, _, radius)| *radius).fold(0.0, f64::max);
+        // The extraction of a Bezier net is the unit matrix, which rounds nothing.
+        let identity = |(_, _, matrix): &Extracted, p: usize| {
+            matrix.iter().enumerate().all(|(k, x)| *x == f64::from(u8::from(k % (p + 2) == 0)))
+        };
+        let rounds = |spans: &[Extracted], p: usize| {
+            if spans.iter().all(|span| identity(span, p)) { 0 } else { p }
+        };
+        let degrees = (rounds(&us, degree[0]) + rounds(&vs, degree[1]), degree[0].max(degree[1]));
+        pieces.error = rounding(degrees, pieces.rational, radius, size);
         let edges = [0, 1, 2, 3].map(|k| surface.collapsed_spread(k) <= 4.0 * pieces.error);
-        for (i, (span_u, u, mu)) in us.iter().enumerate() {
-            for (j, (span_v, v, mv)) in vs.iter().enumerate() {
-                let (poles, center) = local_poles(surface, [*span_u, *span_v], mu, mv);
+        for (i, (_, u, _)) in us.iter().enumerate() {
+            for (j, (_, v, _)) in vs.iter().enumerate() {
+                let (poles, center, _) = std::mem::take(&mut nets[i * columns + j]);
                 let root = pieces.parts.len() as u32;
                 let patch = pieces.patches.len() as u32;
                 let at = [i == 0, i + 1 == us.len(), j == 0, j + 1 == columns];
@@ -201,13 +226,15 @@ impl Pieces {
         // Around a pole of its own, so that rounding is relative to the part and not to the patch.
         let recentred = |mut net: Box<[Pole]>| {
             let p = net[net.len() / 2];
-            let by = [0, 1, 2].map(|k| p[k] / p[3]);
+            let moved = [0, 1, 2].map(|k| center[k] + p[k] / p[3]);
+            // What the centre moves by, as it was rounded: exact where that is less than the centre is from the origin.
+            let by = sub(moved, center);
             for q in &mut net {
                 for k in 0..3 {
                     q[k] -= by[k] * q[3];
                 }
             }
-            (net, add(center, by))
+            (net, moved)
         };
         let (low, c0) = recentred(low);
         let (high, c1) = recentred(high);
@@ -347,24 +374,30 @@ impl Part {
     }
 }
 
+/// The Bezier net of a pair of spans around the middle of the poles that act there, that middle, and how far these are from it.
 fn local_poles(
     surface: &Surface,
     spans: [usize; 2],
     mu: &[f64],
     mv: &[f64],
-) -> (Box<[Pole]>, Vector) {
+) -> (Box<[Pole]>, Vector, f64) {
     let (p, q) = (surface.knots_u().degree(), surface.knots_v().degree());
     let columns = surface.knots_v().pole_count();
     let at = |i: usize, j: usize| (spans[0] - p + i) * columns + spans[1] - q + j;
-    let center = surface.poles()[at(p / 2, q / 2)];
+    let mut around = Aabb::EMPTY;
+    for i in 0..=p {
+        (0..=q).for_each(|j| around.include(surface.poles()[at(i, j)]));
+    }
+    let center = scaled(add(around.low, around.high), 0.5);
     let weights = surface.weights().filter(|_| surface.is_rational());
-    let mut half = vec![[0.0; 4]; (p + 1) * (q + 1)];
+    let (mut half, mut radius) = (vec![[0.0; 4]; (p + 1) * (q + 1)], 0.0f64);
     for i in 0..=p {
         for j in 0..=q {
             for l in 0..=q {
                 let k = at(i, l);
                 let w = weights.map_or(1.0, |w| w[k]) * mv[j * (q + 1) + l];
                 let x = sub(surface.poles()[k], center);
+                radius = radius.max(norm(x));
                 let sum = &mut half[i * (q + 1) + j];
                 for c in 0..3 {
                     sum[c] += w * x[c];
@@ -386,7 +419,7 @@ fn local_poles(
             }
         }
     }
-    (poles.into(), center)
+    (poles.into(), center, radius)
 }
 
 /// First corner and slopes of a net that is an affine map but for `error`.

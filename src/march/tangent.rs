@@ -12,6 +12,9 @@ use crate::bounds::{Vector, add, dot, norm, scaled, sub};
 /// Most steps along one curve.
 const MOST_STEPS: usize = 20_000;
 
+/// A touching curve that is shorter and ends inside both surfaces is a contact.
+const CUSP: f64 = 1e-3;
+
 /// A tangential curve.
 pub struct Ridge {
     /// Places in order.
@@ -146,6 +149,17 @@ pub fn is_near(x: Vector, places: &[Place], reach: f64) -> bool {
     places.windows(2).any(|pair| distance_to_chord(x, pair[0].x, pair[1].x) <= reach)
 }
 
+/// Middles of the pairs in which touching along a curve was seen and no curve runs.
+pub fn unfollowed(search: &Search, ridges: &[Ridge]) -> Vec<[f64; 4]> {
+    let pairs = search.open.iter().filter(|pair| pair.why == Open::Curve);
+    let middles = pairs.map(|pair| {
+        let at = [0, 1, 2, 3].map(|k| 0.5 * (pair.low[k] + pair.high[k]));
+        (at, search.surfaces[0].evaluate(at[0], at[1]), pair.size)
+    });
+    let is_followed = |x: Vector, size: f64| ridges.iter().any(|r| is_near(x, &r.places, size));
+    middles.filter(|&(_, x, size)| !is_followed(x, size)).map(|(at, ..)| at).collect()
+}
+
 /// All curves of touching, from the pairs in which it was seen.
 pub fn ridges(search: &Search, chord: f64) -> Vec<Ridge> {
     let tracer = Tracer { search, chord };
@@ -159,5 +173,11 @@ pub fn ridges(search: &Search, chord: f64) -> Vec<Ridge> {
         }
         found.push(tracer.ridge(touch, 0.5 * pair.size));
     }
+    // A short one that ends inside is where branches come together to the last digits: a cusp.
+    let is_short = |ridge: &Ridge| {
+        let far = |place: &Place| norm(sub(place.x, ridge.places[0].x));
+        ridge.stops.contains(&Stop::Open) && ridge.places.iter().map(far).fold(0.0, f64::max) < CUSP
+    };
+    found.retain(|ridge| !is_short(ridge));
     found
 }

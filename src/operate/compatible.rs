@@ -8,7 +8,7 @@
 use super::refinement::merged;
 use super::{Direction, Surface};
 use crate::curve::Curve;
-use crate::curve::insertion::checked;
+use crate::curve::insertion::{checked, spare};
 use crate::error::Error;
 use crate::knots::Knots;
 
@@ -32,7 +32,7 @@ pub fn compatible_curves(curves: &[Curve]) -> Result<Vec<Curve>, Error> {
     let raise =
         |curve: &Curve| curve.clamp()?.with_domain(start, end)?.elevate(degree - curve.degree());
     let raised: Vec<Curve> = curves.iter().map(raise).collect::<Result<_, _>>()?;
-    let union = Union::new(raised.iter().map(Curve::knots));
+    let union = Union::new(raised.iter().map(Curve::knots))?;
     let weighted = raised.iter().any(|curve| curve.weights().is_some());
     raised.iter().map(|curve| onto(curve, &union)?.weighted_if(weighted)).collect()
 }
@@ -65,7 +65,7 @@ pub(super) fn along(surfaces: &[Surface], direction: Direction) -> Result<Vec<Su
         surface.elevate(direction, by)
     };
     let raised: Vec<Surface> = surfaces.iter().map(raise).collect::<Result<_, _>>()?;
-    let union = Union::new(raised.iter().map(|surface| surface.knots(direction)));
+    let union = Union::new(raised.iter().map(|surface| surface.knots(direction)))?;
     let fine = |surface: &Surface| {
         let (moved, added) = union.apply(surface.knots(direction))?;
         let same = surface.with_strands(direction, moved, &surface.strands(direction)?)?;
@@ -83,7 +83,9 @@ struct Union {
 }
 
 impl Union {
-    fn new<'a>(all: impl Iterator<Item = &'a Knots> + Clone) -> Self {
+    fn new<'a>(all: impl Iterator<Item = &'a Knots> + Clone) -> Result<Self, Error> {
+        // Distinct knots with their steps, what they mean, the common ones.
+        spare(all.clone().map(|knots| knots.values().len()).sum(), 128)?;
         let far = all.clone().flat_map(Knots::values).fold(0.0, |far: f64, u| far.max(u.abs()));
         let mut distinct: Vec<(f64, f64)> = all.clone().flat_map(with_steps).collect();
         distinct.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -101,17 +103,17 @@ impl Union {
             }
         }
         let mut union = Self { meaning, common: Vec::new() };
-        union.common = union.merge(all);
-        union
+        union.common = union.merge(all)?;
+        Ok(union)
     }
 
-    fn merge<'a>(&self, all: impl Iterator<Item = &'a Knots>) -> Vec<f64> {
+    fn merge<'a>(&self, all: impl Iterator<Item = &'a Knots>) -> Result<Vec<f64>, Error> {
         let mut common = Vec::new();
         for knots in all {
             let lacking = lacking(&common, &self.meant(knots.values()));
-            common = merged(&common, &lacking);
+            common = merged(&common, &lacking)?;
         }
-        common
+        Ok(common)
     }
 
     /// The knots that some knots are.
@@ -122,6 +124,7 @@ impl Union {
 
     /// The vector with its knots moved onto the common ones, and those that it lacks.
     fn apply(&self, knots: &Knots) -> Result<(Knots, Vec<f64>), Error> {
+        spare(knots.values().len() + self.common.len(), 3 * size_of::<f64>())?;
         let values = self.meant(knots.values());
         let added = lacking(&values, &self.common);
         Ok((checked(&values, knots.degree())?, added))
@@ -163,6 +166,7 @@ impl Curve {
         if !wanted || self.weights().is_some() {
             return Ok(self);
         }
+        spare(self.poles().len(), size_of::<f64>())?;
         let weights = vec![1.0; self.poles().len()].into_boxed_slice();
         Ok(Self::from_parts(self.knots().clone(), self.poles().into(), Some(weights)))
     }
@@ -174,6 +178,7 @@ impl Surface {
         if !wanted || self.weights().is_some() {
             return Ok(self);
         }
+        spare(self.poles().len(), size_of::<f64>())?;
         let weights = vec![1.0; self.poles().len()].into_boxed_slice();
         let [u, v] = [self.knots_u().clone(), self.knots_v().clone()];
         Ok(Self::from_parts(u, v, self.poles().into(), Some(weights)))

@@ -18,7 +18,7 @@ use super::{Direction, Surface};
 use crate::bezier::binomial;
 use crate::bounds::{Vector, add, norm, scaled, sub};
 use crate::curve::Curve;
-use crate::curve::insertion::{Weighted, checked, transposed};
+use crate::curve::insertion::{Weighted, checked, room, spare, transposed};
 use crate::error::Error;
 use crate::knots::{Knots, MAX_DEGREE};
 
@@ -51,6 +51,7 @@ impl Surface {
         if self.is_rational() {
             return rational_sheet(self, direction);
         }
+        spare(self.poles().len(), 2 * size_of::<Weighted>() + size_of::<Vector>())?;
         let low = self.knots(direction).degree() == 1;
         let raised = self.elevate(direction, usize::from(low))?;
         let poles: Vec<Vector> =
@@ -81,6 +82,8 @@ fn lowered(knots: &Knots, poles: &[Vector], name: &str) -> Result<(Knots, Vec<Ve
     // Without the poles that act nowhere, which degree - 1 may have no room for.
     let (p, active) = (knots.degree(), knots.active_poles());
     let (t, count) = (&knots.values()[active.start..active.end + p + 1], active.len());
+    // Strands, all of them in one, and knots.
+    spare(poles.len() + t.len(), 2 * size_of::<Vector>() + size_of::<f64>())?;
     let mut strands: Vec<Vec<Vector>> = Vec::new();
     for strand in poles.chunks_exact(knots.pole_count()) {
         let strand = &strand[active.clone()];
@@ -90,7 +93,7 @@ fn lowered(knots: &Knots, poles: &[Vector], name: &str) -> Result<(Knots, Vec<Ve
     }
     let longest = strands.iter().flatten().fold(0.0, |longest: f64, x| longest.max(norm(*x)));
     let mut values = t[1..t.len() - 1].to_vec();
-    let torn: Vec<f64> = breaks(knots)
+    let torn: Vec<f64> = breaks(knots)?
         .into_iter()
         .filter(|&u| knots.contains(u) && u > t[p] && u < t[count] && knots.multiplicity(u) == p)
         .collect();
@@ -115,7 +118,9 @@ fn cut(knots: &Knots) -> Result<Cut, Error> {
         let text = format!("degree: {} of a rational shape, at most 15", knots.degree());
         return Err(Error::Unsupported(text));
     }
-    Cut::new(knots, breaks(knots))
+    // Squares of the pieces.
+    spare(knots.values().len(), 4 * (knots.degree() + 1) * size_of::<Option<Weighted>>())?;
+    Cut::new(knots, breaks(knots)?)
 }
 
 /// The vector of twice the degree with full multiplicity at the cuts.
@@ -141,10 +146,17 @@ struct Sheet {
 }
 
 impl Sheet {
-    fn new([height, width]: [usize; 2], axis: usize, cut: &Cut, knots: &Knots) -> Self {
-        let (points, degree) = (vec![None; height * width], 2 * knots.degree());
+    fn new(
+        [height, width]: [usize; 2],
+        axis: usize,
+        cut: &Cut,
+        knots: &Knots,
+    ) -> Result<Self, Error> {
+        let count = height.checked_mul(width).ok_or(Error::OutOfMemory)?;
+        let (mut points, degree) = (room(count)?, 2 * knots.degree());
+        points.resize(count, None);
         let open = cut.breaks.iter().map(|&u| knots.multiplicity(u) >= knots.degree()).collect();
-        Self { points, width, axis, degree, open, torn: (0.0, [0; 2]), longest: 0.0 }
+        Ok(Self { points, width, axis, degree, open, torn: (0.0, [0; 2]), longest: 0.0 })
     }
 
     fn place(&mut self, piece: &[Weighted], piece_width: usize, [row, column]: [usize; 2]) {
@@ -174,7 +186,7 @@ impl Sheet {
 fn rational_curve(curve: &Curve) -> Result<Curve, Error> {
     let (cut, p) = (cut(curve.knots())?, curve.degree());
     let net = cut.map.apply(&curve.strand()?)?;
-    let mut sheet = Sheet::new([2 * p * cut.count() + 1, 1], 0, &cut, curve.knots());
+    let mut sheet = Sheet::new([2 * p * cut.count() + 1, 1], 0, &cut, curve.knots())?;
     for i in 0..cut.count() {
         let length = cut.breaks[i + 1] - cut.breaks[i];
         let piece = quotient(&net[i * p..=i * p + p], [p, 0], 0, length);
@@ -189,7 +201,7 @@ fn rational_sheet(surface: &Surface, direction: Direction) -> Result<Surface, Er
     let (p, q) = (u.map.knots.degree(), v.map.knots.degree());
     let net = patch_net(surface, &u, &v)?;
     let (axis, sizes) = (direction.index(), [2 * p * u.count() + 1, 2 * q * v.count() + 1]);
-    let mut sheet = Sheet::new(sizes, axis, [&u, &v][axis], surface.knots(direction));
+    let mut sheet = Sheet::new(sizes, axis, [&u, &v][axis], surface.knots(direction))?;
     for (i, j) in (0..u.count()).flat_map(|i| (0..v.count()).map(move |j| (i, j))) {
         let (ends, k) = [(&u.breaks, i), (&v.breaks, j)][axis];
         let piece = quotient(&patch(&net, &u, &v, i, j), [p, q], axis, ends[k + 1] - ends[k]);

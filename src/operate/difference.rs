@@ -23,7 +23,7 @@ use super::{Direction, Surface};
 use crate::bezier::binomial;
 use crate::bounds::{Aabb, HALF_ULP, Vector, norm, sub};
 use crate::curve::Curve;
-use crate::curve::insertion::{Weighted, mix};
+use crate::curve::insertion::{Weighted, mix, spare};
 use crate::error::Error;
 use crate::knots::Knots;
 use std::collections::BinaryHeap;
@@ -53,7 +53,8 @@ impl Curve {
     pub fn difference(&self, other: &Self) -> Result<Difference, Error> {
         same_domain("domain", self.knots(), other.knots())?;
         let degree = self.degree().max(other.degree());
-        let common = common_breaks(self.knots(), other.knots());
+        let common = common_breaks(self.knots(), other.knots())?;
+        check_room(common.len(), degree + 1)?;
         let net = |curve: &Self| -> Result<_, Error> {
             let raised = curve.elevate(degree - curve.degree())?;
             let cut = Cut::new(raised.knots(), common.clone())?;
@@ -85,9 +86,10 @@ impl Surface {
             same_domain(&format!("domain{}", direction.suffix()), knots[0], knots[1])?;
             let degrees = knots.map(Knots::degree);
             degree[direction.index()] = degrees[0].max(degrees[1]);
-            common[direction.index()] = common_breaks(knots[0], knots[1]);
+            common[direction.index()] = common_breaks(knots[0], knots[1])?;
             steps += degrees[0].abs_diff(degrees[1]);
         }
+        check_room(common[0].len() * common[1].len(), (degree[0] + 1) * (degree[1] + 1))?;
         let cut = |surface: &Self| -> Result<_, Error> {
             let mut raised = surface.clone();
             for direction in [Direction::U, Direction::V] {
@@ -120,10 +122,16 @@ fn same_domain(name: &str, a: &Knots, b: &Knots) -> Result<(), Error> {
     Err(Error::InvalidArgument(text))
 }
 
-fn common_breaks(a: &Knots, b: &Knots) -> Vec<f64> {
-    let mut all = super::refinement::merged(&breaks(a), &breaks(b));
+fn common_breaks(a: &Knots, b: &Knots) -> Result<Vec<f64>, Error> {
+    let mut all = super::refinement::merged(&breaks(a)?, &breaks(b)?)?;
     all.dedup();
-    all
+    Ok(all)
+}
+
+/// Refuses what the pieces of both shapes would not fit into.
+fn check_room(pieces: usize, poles: usize) -> Result<(), Error> {
+    // The queue grows by doubling; nets are lists of their own.
+    spare(pieces, 3 * size_of::<Part>() + 2 * (poles * size_of::<Weighted>() + 32))
 }
 
 /// What rounding may add to a length that is computed from the pieces.

@@ -6,8 +6,12 @@
 use super::map::Map;
 use super::{Direction, Surface};
 use crate::curve::Curve;
+use crate::curve::insertion::spare;
 use crate::error::Error;
 use crate::knots::{KnotError, MAX_DEGREE};
+
+/// Bytes of a copy for each pole: pole, weight, knots.
+const COPY: usize = 64;
 
 impl Curve {
     /// The same curve with a degree higher by `by`. Exact. Cost: O(n p^3) a degree.
@@ -16,6 +20,7 @@ impl Curve {
     /// A degree beyond [`MAX_DEGREE`]; memory that could not be had.
     pub fn elevate(&self, by: usize) -> Result<Self, Error> {
         check(self.degree(), by, "")?;
+        spare(self.poles().len(), COPY)?;
         let mut curve = self.clone();
         for _ in 0..by {
             curve = curve.mapped(&Map::elevation(curve.knots())?)?;
@@ -31,6 +36,7 @@ impl Surface {
     /// A degree beyond [`MAX_DEGREE`]; memory that could not be had.
     pub fn elevate(&self, direction: Direction, by: usize) -> Result<Self, Error> {
         check(self.knots(direction).degree(), by, direction.suffix())?;
+        spare(self.poles().len(), COPY)?;
         let mut surface = self.clone();
         for _ in 0..by {
             surface = surface.mapped(direction, &Map::elevation(surface.knots(direction))?)?;

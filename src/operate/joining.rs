@@ -9,7 +9,7 @@ use super::reparametrisation::{rational, rational_surface};
 use super::{Bounded, Direction, Surface, check_tolerance};
 use crate::bounds::{norm, sub};
 use crate::curve::Curve;
-use crate::curve::insertion::{Weighted, checked, transposed};
+use crate::curve::insertion::{Weighted, checked, spare, transposed};
 use crate::error::Error;
 use crate::knots::Knots;
 
@@ -25,6 +25,8 @@ pub fn join_curves(curves: &[Curve], tolerance: f64) -> Result<Bounded<Curve>, E
     check(curves.len(), "curves", tolerance)?;
     let degree = curves.iter().map(Curve::degree).max().unwrap_or(1);
     let weighted = curves.iter().any(Curve::is_rational);
+    // Parts, and the strand of all.
+    spare(curves.iter().map(|curve| curve.poles().len()).sum(), 256)?;
     let mut parts: Vec<Curve> = Vec::new();
     for curve in curves {
         let (start, end) = curve.domain();
@@ -70,6 +72,7 @@ pub fn join_surfaces(
     let other = [Direction::V, Direction::U][direction.index()];
     let weighted = surfaces.iter().any(Surface::is_rational);
     let common = surfaces[0].knots(other).domain();
+    spare(surfaces.iter().map(|surface| surface.poles().len()).sum(), 256)?;
     let mut parts: Vec<Surface> = Vec::new();
     for surface in surfaces {
         let (start, end) = surface.knots(direction).domain();

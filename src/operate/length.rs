@@ -19,7 +19,7 @@ use super::pieces::{Cut, breaks};
 use crate::bezier::binomial;
 use crate::bounds::{Aabb, HALF_ULP, Vector, norm, scaled, sub};
 use crate::curve::Curve;
-use crate::curve::insertion::Weighted;
+use crate::curve::insertion::{Weighted, spare};
 use crate::error::Error;
 use crate::portable::SameDigits;
 
@@ -70,7 +70,7 @@ impl Curve {
     /// A tolerance that is negative or not finite; memory that could not be had.
     pub fn arc_length(&self, tolerance: f64) -> Result<ArcLength, Error> {
         check_tolerance(tolerance)?;
-        let (cut, p) = (Cut::new(self.knots(), breaks(self.knots()))?, self.degree());
+        let (cut, p) = (Cut::new(self.knots(), breaks(self.knots())?)?, self.degree());
         let mut strand = self.strand()?;
         let centre = strand[strand.len() / 2].pole;
         strand.iter_mut().for_each(|point| point.pole = sub(point.pole, centre));
@@ -82,6 +82,8 @@ impl Curve {
         let (start, end) = self.domain();
         let mut length =
             ArcLength { nodes: gauss(POINTS), pieces: Vec::new(), domain: (start, end) };
+        // Pieces grow by doubling, and each has lists of its own.
+        spare(cut.count(), 3 * size_of::<Piece>() + 128 * (p + 1))?;
         for (i, ends) in cut.breaks.windows(2).enumerate() {
             let share = (ends[1] - ends[0]) / (end - start);
             let part = Part::new(&net[i * p..=i * p + p], ends, self.is_rational());

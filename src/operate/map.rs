@@ -17,7 +17,7 @@
 //! References: Ramshaw, *Blossoms are polar forms*, 1989; Prautzsch, *Degree elevation of B-spline curves*, 1984.
 //! Rounding: every share carries at most `8 (p + 1)` half ulps of itself, since nothing is subtracted but knots.
 
-use crate::curve::insertion::{Weighted, checked, room};
+use crate::curve::insertion::{Weighted, checked, room, spare};
 use crate::error::Error;
 use crate::knots::Knots;
 
@@ -41,7 +41,7 @@ impl Map {
     /// all knots of `from` that lie there.
     pub fn to(from: &Knots, values: &[f64]) -> Result<Self, Error> {
         let (p, knots) = (from.degree(), checked(values, from.degree())?);
-        let mut rows = room(knots.pole_count())?;
+        let mut rows = rows_for(knots.pole_count(), p)?;
         for i in 0..knots.pole_count() {
             rows.push(blossom(from, &values[i + 1..=i + p], values[i] < values[i + 1]));
         }
@@ -50,9 +50,9 @@ impl Map {
 
     /// To the next degree.
     pub fn elevation(from: &Knots) -> Result<Self, Error> {
-        let (p, values) = (from.degree(), raised_knots(from));
+        let (p, values) = (from.degree(), raised_knots(from)?);
         let knots = checked(&values, p + 1)?;
-        let mut rows = room(knots.pole_count())?;
+        let mut rows = rows_for(knots.pole_count(), p)?;
         for i in 0..knots.pole_count() {
             rows.push(mean_blossom(from, &values[i + 1..=i + p + 1], values[i] < values[i + 1]));
         }
@@ -74,9 +74,16 @@ impl Map {
     }
 }
 
+/// Room for rows whose shares are lists of their own.
+fn rows_for(count: usize, degree: usize) -> Result<Vec<Row>, Error> {
+    let rows = room(count)?;
+    spare(count, 16 * (degree + 1) + 48)?;
+    Ok(rows)
+}
+
 /// All knots once more, without those that no basis function on the domain reaches.
-pub(crate) fn raised_knots(from: &Knots) -> Vec<f64> {
-    let mut all = Vec::with_capacity(2 * from.values().len());
+pub(crate) fn raised_knots(from: &Knots) -> Result<Vec<f64>, Error> {
+    let mut all = room(2 * from.values().len())?;
     for (i, &u) in from.values().iter().enumerate() {
         all.push(u);
         if from.values().get(i + 1) != Some(&u) {
@@ -86,7 +93,9 @@ pub(crate) fn raised_knots(from: &Knots) -> Vec<f64> {
     let ((start, end), order) = (from.domain(), from.degree() + 2);
     let first = all.partition_point(|&u| u <= start) - order;
     let last = all.partition_point(|&u| u < end) + order;
-    all[first..last].to_vec()
+    all.truncate(last);
+    all.drain(..first);
+    Ok(all)
 }
 
 impl Row {

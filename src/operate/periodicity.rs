@@ -14,7 +14,7 @@
 
 use super::{Bounded, Direction, Surface, check_tolerance};
 use crate::curve::Curve;
-use crate::curve::insertion::{Strands, Weighted, checked};
+use crate::curve::insertion::{Strands, Weighted, checked, spare};
 use crate::error::Error;
 use crate::knots::{Knots, MAX_MAGNITUDE};
 
@@ -132,6 +132,7 @@ fn extrapolated(
 /// A clamped vector and its strands with mirrored knots outside the domain.
 fn unclamped(knots: &Knots, strands: &[Weighted]) -> Result<Strands, Error> {
     let (p, t, count) = (knots.degree(), knots.values(), knots.pole_count());
+    spare(strands.len() + t.len(), size_of::<Weighted>() + size_of::<f64>())?;
     let (start, end) = knots.domain();
     let before = (1..=p).rev().map(|k| start - (t[(p + k).min(count)] - start));
     let behind = (1..=p).map(|k| end + (end - t[count.saturating_sub(k).max(p)]));
@@ -157,6 +158,7 @@ fn unclamped(knots: &Knots, strands: &[Weighted]) -> Result<Strands, Error> {
 /// that, or a weight is not positive.
 fn wrapped(knots: &Knots, strands: &[Weighted], copies: usize) -> Result<Option<Strands>, Error> {
     let (p, t, old_count) = (knots.degree(), knots.values(), knots.pole_count());
+    spare(strands.len() + t.len(), 2 * (size_of::<Weighted>() + size_of::<f64>()))?;
     let (start, end) = knots.domain();
     let mut period = vec![start; copies];
     period.extend_from_slice(&t[p + 1..old_count]);

@@ -3,7 +3,7 @@
 use super::map::Map;
 use super::{Direction, Surface};
 use crate::curve::Curve;
-use crate::curve::insertion::{Weighted, checked};
+use crate::curve::insertion::{Weighted, checked, room};
 use crate::error::Error;
 use crate::knots::Knots;
 
@@ -14,19 +14,20 @@ pub(super) struct Cut {
 }
 
 /// The knots of the domain, each once, its ends included.
-pub(super) fn breaks(knots: &Knots) -> Vec<f64> {
+pub(super) fn breaks(knots: &Knots) -> Result<Vec<f64>, Error> {
     let (start, end) = knots.domain();
-    let mut out: Vec<f64> =
-        knots.values().iter().copied().filter(|&u| start <= u && u <= end).collect();
+    let mut out = room(knots.values().len())?;
+    out.extend(knots.values().iter().copied().filter(|&u| start <= u && u <= end));
     out.dedup();
-    out
+    Ok(out)
 }
 
 impl Cut {
     /// Cut at `breaks`, which hold all knots of the domain.
     pub fn new(knots: &Knots, breaks: Vec<f64>) -> Result<Self, Error> {
         let p = knots.degree();
-        let mut values = vec![breaks[0]];
+        let mut values = room(breaks.len().saturating_mul(p) + 2)?;
+        values.push(breaks[0]);
         values.extend(breaks.iter().flat_map(|&u| std::iter::repeat_n(u, p)));
         values.extend(breaks.last());
         Ok(Self { map: Map::to(knots, &values)?, breaks })
@@ -51,7 +52,7 @@ impl Curve {
     /// # Errors
     /// Memory that could not be had.
     pub fn bezier_form(&self) -> Result<Self, Error> {
-        self.mapped(&Cut::new(self.knots(), breaks(self.knots()))?.map)
+        self.mapped(&Cut::new(self.knots(), breaks(self.knots())?)?.map)
     }
 
     /// The Bezier pieces, one a span of the domain in order, each with its parameters: clamped curves of the same degree
@@ -60,7 +61,7 @@ impl Curve {
     /// # Errors
     /// Memory that could not be had.
     pub fn bezier_pieces(&self) -> Result<Vec<Self>, Error> {
-        let cut = Cut::new(self.knots(), breaks(self.knots()))?;
+        let cut = Cut::new(self.knots(), breaks(self.knots())?)?;
         let (p, net) = (self.degree(), cut.map.apply(&self.strand()?)?);
         let piece = |i: usize| self.like(cut.knots(i)?, &net[i * p..=i * p + p]);
         (0..cut.count()).map(piece).collect()
@@ -76,7 +77,7 @@ impl Surface {
         let mut form = self.clone();
         for direction in [Direction::U, Direction::V] {
             let knots = form.knots(direction);
-            form = form.mapped(direction, &Cut::new(knots, breaks(knots))?.map)?;
+            form = form.mapped(direction, &Cut::new(knots, breaks(knots)?)?.map)?;
         }
         Ok(form)
     }
@@ -87,9 +88,8 @@ impl Surface {
     /// # Errors
     /// Memory that could not be had.
     pub fn bezier_pieces(&self) -> Result<(Vec<Self>, [usize; 2]), Error> {
-        let cuts = [self.knots_u(), self.knots_v()].map(|knots| Cut::new(knots, breaks(knots)));
-        let [cut_u, cut_v] = cuts;
-        let (cut_u, cut_v) = (cut_u?, cut_v?);
+        let cut = |knots: &Knots| Cut::new(knots, breaks(knots)?);
+        let (cut_u, cut_v) = (cut(self.knots_u())?, cut(self.knots_v())?);
         let net = patch_net(self, &cut_u, &cut_v)?;
         let mut out = Vec::new();
         for (i, j) in (0..cut_u.count()).flat_map(|i| (0..cut_v.count()).map(move |j| (i, j))) {

@@ -53,7 +53,7 @@ fn lower(
     }
     let coarse = checked(&lowered(knots.values()), p - 1)?;
     let elevation = Map::elevation(&coarse)?;
-    let fine = Map::to(knots, &raised_knots(&coarse))?.apply(&strands)?;
+    let fine = Map::to(knots, &raised_knots(&coarse)?)?.apply(&strands)?;
     match nearest(&elevation, &fine)? {
         Some(strands) => Ok((coarse, strands)),
         None => Err(Error::Unsupported("weights: the reduced ones are not all positive".into())),

@@ -9,6 +9,7 @@
 use super::map::Map;
 use super::{Direction, Surface};
 use crate::curve::Curve;
+use crate::curve::insertion::{copy_of, room, spare};
 use crate::error::Error;
 use crate::knots::Knots;
 
@@ -81,7 +82,7 @@ pub(super) fn refinement(knots: &Knots, name: &str, added: &[f64]) -> Result<Map
         let text = format!("{name}: {name}[{i}] = {} is outside the domain", added[i]);
         return Err(Error::InvalidArgument(text));
     }
-    let mut sorted: Vec<f64> = added.to_vec();
+    let mut sorted: Vec<f64> = copy_of(added)?;
     sorted.sort_by(f64::total_cmp);
     let (degree, (start, end)) = (knots.degree(), knots.domain());
     for &u in &sorted {
@@ -92,15 +93,19 @@ pub(super) fn refinement(knots: &Knots, name: &str, added: &[f64]) -> Result<Map
             return Err(Error::InvalidArgument(text));
         }
     }
-    Map::to(knots, &merged(knots.values(), &sorted))
+    Map::to(knots, &merged(knots.values(), &sorted)?)
 }
 
 /// Two ordered lists in one.
-pub(super) fn merged(a: &[f64], b: &[f64]) -> Vec<f64> {
-    let mut all = [a, b].concat();
+pub(super) fn merged(a: &[f64], b: &[f64]) -> Result<Vec<f64>, Error> {
+    let mut all = room(a.len() + b.len())?;
+    all.extend_from_slice(a);
+    all.extend_from_slice(b);
+    // A stable sort has a list of its own.
+    spare(all.len(), size_of::<f64>())?;
     // -0 and 0 are one knot; a stable sort by value keeps the order of a.
     all.sort_by(|x, y| x.partial_cmp(y).unwrap_or(std::cmp::Ordering::Equal));
-    all
+    Ok(all)
 }
 
 /// The map to the clamped vector over a part of the domain; the parameters are named start and end.
@@ -117,7 +122,8 @@ pub(super) fn part(knots: &Knots, suffix: &str, start: f64, end: f64) -> Result<
     }
     let inside = knots.values().iter().copied().filter(|&u| start < u && u < end);
     let order = knots.degree() + 1;
-    let mut values = vec![start; order];
+    let mut values = room(knots.values().len() + 2 * order)?;
+    values.extend(std::iter::repeat_n(start, order));
     values.extend(inside);
     values.extend(std::iter::repeat_n(end, order));
     Map::to(knots, &values)

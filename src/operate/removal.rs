@@ -18,7 +18,7 @@
 use super::difference::direct;
 use super::{Bounded, Direction, Surface, check_tolerance};
 use crate::curve::Curve;
-use crate::curve::insertion::{Weighted, checked, mix, room};
+use crate::curve::insertion::{Weighted, checked, copy_of, mix, room};
 use crate::error::Error;
 use crate::knots::{Knots, MAX_MAGNITUDE};
 use std::ops::Range;
@@ -118,7 +118,7 @@ fn removed(
         let text = format!("times: {times} given, {name} = {u} is a knot {copies} times");
         return Err(Error::InvalidArgument(text));
     }
-    let (p, mut values) = (knots.degree(), knots.values().to_vec());
+    let (p, mut values) = (knots.degree(), copy_of(knots.values())?);
     for _ in 0..times {
         let gap = Gap::new(&values, p, u);
         let Some((without, _)) = gap.close(&strands, values.len() - p - 1)? else {

@@ -15,7 +15,7 @@ import numpy as np
 import Part
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-from footpoint_freecad import fairing, intersections, measure, objects, parameters, weights  # noqa: E402
+from footpoint_freecad import fairing, intersections, measure, objects, parameters, toolkit, weights  # noqa: E402
 
 V = FreeCAD.Vector
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -332,6 +332,59 @@ def test_fairing_and_inspection():
     FreeCAD.closeDocument(document.Name)
 
 
+def test_operations_and_constructions():
+    """Those of footpoint on geometry of Part, beside FreeCAD's own where it has one."""
+    curve = profile()
+    edge = curve.toShape()
+    def apart(one, other, count=200):
+        ends = one.FirstParameter, one.LastParameter
+        return max((one.value(u) - other.value(u)).Length for u in np.linspace(*ends, count))
+
+    finer = curve.copy()
+    middles = [0.5 * (a + b) for a, b in zip(curve.getKnots(), curve.getKnots()[1:])]
+    for u in middles:
+        finer.insertKnot(u, 1, 1e-12)
+    ours = toolkit.call("operate.refine", edge, middles)
+    assert ours.NbPoles == finer.NbPoles and apart(finer, ours) < 1e-12
+    thin, error = toolkit.call("operate.simplify", ours, 1e-9)
+    assert thin.NbPoles <= curve.NbPoles and error <= 1e-9 and apart(curve, thin) <= error + 1e-12
+    wide = toolkit.call("operate.refine", bumpy(), [0.5 * sum(bumpy().getUKnots()[:2])], direction="u")
+    slim, error = toolkit.call("operate.simplify", wide, 1e-6)
+    assert wide.NbUPoles == bumpy().NbUPoles + 1 and slim.NbUPoles <= bumpy().NbUPoles and error <= 1e-6
+    raised = curve.copy()
+    raised.increaseDegree(5)
+    assert apart(raised, toolkit.call("operate.elevate", edge, 2)) < 1e-12
+    part = curve.copy()
+    low, high = curve.FirstParameter + 0.2, curve.LastParameter - 0.3
+    part.segment(low, high)
+    assert apart(part, toolkit.call("operate.part", edge, (low, high))) < 1e-10
+    ring = profile(True)
+    closed = ring.copy()
+    closed.setNotPeriodic()
+    periodic, error = toolkit.call("operate.periodic", closed, 1e-9)
+    assert error <= 1e-9 and apart(closed, periodic) <= error + 1e-10
+    total = toolkit.call("operate.ArcLength", edge).total
+    assert abs(total[0] - edge.Length) <= 1e-6 * edge.Length
+    other = Part.makeCircle(6, V(0, 0, 30), V(0, 0, 1), 0, 90)
+    ruled = toolkit.call("construct.ruled", edge, other)
+    shape = ruled.toShape()
+    for u in np.linspace(0, 1, 9):
+        on = edge.valueAt(edge.FirstParameter + u * (edge.LastParameter - edge.FirstParameter))
+        assert shape.distToShape(Part.Vertex(on))[0] < 1e-9
+    near = toolkit.call("construct.fit_curve", [tuple(edge.valueAt(u)) for u in np.linspace(edge.FirstParameter, edge.LastParameter, 300)], 1e-3)
+    assert near[1].worst <= 1e-3
+    level = Part.BSplineSurface()
+    level.buildFromPolesMultsKnots([[V(-5, -5, 0.3), V(-5, 60, 0.3)], [V(70, -5, 0.3), V(70, 60, 0.3)]], [2, 2], [2, 2], [0, 1], [0, 1], False, False, 1, 1)
+    meeting = toolkit.call("intersect_surfaces", bumpy(), level)
+    assert meeting.is_proven and len(meeting.branches) > 0
+    try:
+        toolkit.call("operate.simplify", edge, -1.0)
+    except ValueError as refused:
+        assert "tolerance" in str(refused)
+    else:
+        raise AssertionError("a tolerance of -1 was taken")
+
+
 def test_refusals():
     for call, text in ((lambda: measure.PartTarget(Part.Vertex(1, 2, 3)), "no faces"), (lambda: measure.invert(Part.Vertex(1, 2, 3), (0, 0, 0)), "curve"),
                        (lambda: parameters.parameter(3, (0, 0, 0)), ""), (lambda: measure.points_of(3), "point cloud")):
@@ -344,11 +397,11 @@ def test_refusals():
 
 
 def test_guide():
-    """The program of the guide for FreeCAD users, as it stands there."""
+    """The programs of the guide for FreeCAD users, as they stand there."""
     with open(os.path.join(HERE, "..", "..", "..", "docs", "guide.md"), encoding="utf-8") as stream:
         section = stream.read().split("## FreeCAD users")[1].split("\n## ")[0]
     programs = [part.split("```")[0] for part in section.split("```python\n")[1:]]
-    assert len(programs) == 1
+    assert len(programs) == 2
     for program in programs:
         exec(compile(program, "guide", "exec"), {})
 

@@ -83,6 +83,7 @@ impl Walk<'_, '_, '_> {
             site: &site,
             grid: &self.sheet.edge_grids[usize::from(!along_s)],
             method: self.sheet.method,
+            reach: None,
         };
         let c = if rational { &c[..] } else { &[] };
         let source = Source::Products(n, c);

@@ -162,7 +162,7 @@ impl Slopes {
 }
 
 /// Coefficients of `X_k W - W_k X`, component by component, from those of X, W, X_k and W_k.
-fn quotient(
+pub fn quotient(
     x: &[f64],
     w: &[f64],
     degree: Bidegree,

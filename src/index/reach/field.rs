@@ -2,9 +2,9 @@
 
 use super::MARGIN;
 use super::cell::{Cell, Shape, angle_factor, relative};
-use super::oriented::Oriented;
+use super::groups::{Groups, View};
 use super::raster::Raster;
-use crate::bounds::{Vector, add, dot, norm, scaled, sub};
+use crate::bounds::{Vector, add, norm, scaled, sub};
 use crate::error::Error;
 use crate::index::patch::Patch;
 use crate::index::piece::reserved;
@@ -15,39 +15,13 @@ const WIDEST: usize = 12;
 /// Bounds less than this are of no use: with it, queries are settled from five diagonals away.
 const LEAST: f64 = 0.1;
 
-/// Boxes around groups of cells, in rows and columns.
-#[derive(Debug)]
-struct Layer {
-    size: [usize; 2],
-    boxes: Vec<Oriented>,
-}
-
-impl Layer {
-    /// Groups of two by two of `fine`.
-    fn over(fine: &Self) -> Result<Self, Error> {
-        let size = fine.size.map(|n| n.div_ceil(2));
-        let mut boxes = reserved(size[0] * size[1])?;
-        for k in 0..size[0] * size[1] {
-            let (i, j) = (k / size[1] * 2, k % size[1] * 2);
-            let mut group = fine.boxes[i * fine.size[1] + j];
-            for a in i..(i + 2).min(fine.size[0]) {
-                for b in j..(j + 2).min(fine.size[1]) {
-                    group = group.joined(&fine.boxes[a * fine.size[1] + b]);
-                }
-            }
-            boxes.push(group);
-        }
-        Ok(Self { size, boxes })
-    }
-}
-
 /// The cells of a surface in rows and columns.
 pub struct Field {
     pub size: [usize; 2],
     cells: Vec<Cell>,
     /// Of each row, of each column: how many of the next ones are C1 with it and each other, and of those before.
     smooth: [Vec<[usize; 2]>; 2],
-    layers: Vec<Layer>,
+    groups: Groups,
 }
 
 impl Field {
@@ -82,11 +56,8 @@ impl Field {
         });
         let mut boxes = reserved(ordered.len())?;
         boxes.extend(ordered.iter().map(|cell: &Cell| cell.bounds));
-        let mut layers = vec![Layer { size, boxes }];
-        while layers[layers.len() - 1].boxes.len() > 1 {
-            layers.push(Layer::over(&layers[layers.len() - 1])?);
-        }
-        Ok(Self { size, cells: ordered, smooth, layers })
+        let groups = Groups::new(size, boxes)?;
+        Ok(Self { size, cells: ordered, smooth, groups })
     }
 
     /// The bounds of a cell: for queries on the side of its normal, and on the other.
@@ -113,7 +84,7 @@ impl Field {
             }
         }
         if bend[0] < f64::INFINITY || bend[1] < f64::INFINITY {
-            self.far(&view, block, &mut bend);
+            self.groups.far(&[view], covered(block), &mut bend);
         }
         bend
     }
@@ -149,7 +120,7 @@ impl Field {
         }
         let mut bend = [bend, f64::INFINITY];
         if bend[0] < f64::INFINITY {
-            self.far(&view, block, &mut bend);
+            self.groups.far(&[view], covered(block), &mut bend);
         }
         bend[0]
     }
@@ -251,77 +222,10 @@ impl Field {
         let least = angle_factor(&tangents) - relative(&tangents, &off) * MARGIN;
         (least > 0.0).then(|| (tangents, least, shapes.flatten()))
     }
-
-    /// Raises the bounds of a cell to what the cells outside of the block around it ask.
-    fn far(&self, view: &View, block: [[usize; 2]; 2], bend: &mut [f64; 2]) {
-        let mut waiting = [(0usize, 0usize, 0usize); 4 * usize::BITS as usize];
-        waiting[0] = (self.layers.len() - 1, 0, 0);
-        let mut count = 1;
-        while count > 0 {
-            count -= 1;
-            let (layer, i, j) = waiting[count];
-            let covered = |k: usize, at: usize| {
-                let (first, last) = (at << layer, (((at + 1) << layer) - 1).min(self.size[k] - 1));
-                block[k][0] <= first && last <= block[k][1]
-            };
-            if covered(0, i) && covered(1, j) {
-                continue;
-            }
-            let columns = self.layers[layer].size[1];
-            let least = bend[0].min(bend[1]);
-            let ask = view.asked(&self.layers[layer].boxes[i * columns + j], least);
-            if ask[0] <= bend[0] && ask[1] <= bend[1] {
-                continue;
-            }
-            if layer == 0 {
-                *bend = [bend[0].max(ask[0]), bend[1].max(ask[1])];
-                if bend[0] == f64::INFINITY && bend[1] == f64::INFINITY {
-                    return;
-                }
-                continue;
-            }
-            let fine = self.layers[layer - 1].size;
-            for a in 2 * i..(2 * i + 2).min(fine[0]) {
-                for b in 2 * j..(2 * j + 2).min(fine[1]) {
-                    waiting[count] = (layer - 1, a, b);
-                    count += 1;
-                }
-            }
-        }
-    }
 }
 
-/// A cell with a direction, seen from what is elsewhere.
-struct View<'a> {
-    from: &'a Oriented,
-    /// Unit vector, and how far the direction of a place may be from it.
-    axis: Vector,
-    cone: f64,
-    /// How far the places may lie below the middle of the box, along the axis.
-    depth: f64,
-}
-
-impl View<'_> {
-    /// What is in a box asks of the bounds of a cell, for the axis and the opposite one: the greatest `N.e / |e|^2` for `|e|` at
-    /// least the distance d, and normals N within the cone of A: `A.e / d^2 + |N - A| / d`, and 1 / d.
-    ///
-    /// Not looked at any closer when it is at most `least`.
-    fn asked(&self, other: &Oriented, least: f64) -> [f64; 2] {
-        let move_ = sub(other.center, self.from.center);
-        let apart = (norm(move_) - self.from.radius - other.radius) / MARGIN;
-        if apart * least >= 1.0 {
-            return [1.0 / apart; 2];
-        }
-        let distance = self.from.distance(other).max(apart);
-        if distance.is_nan() || distance <= 0.0 {
-            return [f64::INFINITY; 2];
-        }
-        let height = dot(move_, self.axis);
-        let reach = (other.reach(self.axis) + 1e-12) * MARGIN + self.depth;
-        let near = 1.0 / distance;
-        [height, -height].map(|height| {
-            let rise = (height + reach).max(0.0);
-            (near * (rise * near + self.cone)).min(near) * MARGIN
-        })
-    }
+/// Whether rows and columns (first and last) lie in a block.
+fn covered(block: [[usize; 2]; 2]) -> impl Fn([usize; 2], [usize; 2]) -> bool {
+    let within = move |k: usize, ends: [usize; 2]| block[k][0] <= ends[0] && ends[1] <= block[k][1];
+    move |rows, columns| within(0, rows) && within(1, columns)
 }

@@ -1,0 +1,135 @@
+//! Boxes around groups of cells, and what they ask of the bounds of a cell far away.
+
+use super::MARGIN;
+use super::oriented::Oriented;
+use crate::bounds::{Vector, dot, norm, sub};
+use crate::error::Error;
+use crate::index::piece::reserved;
+
+/// Boxes around groups of cells, in rows and columns.
+#[derive(Debug)]
+struct Layer {
+    size: [usize; 2],
+    boxes: Vec<Oriented>,
+}
+
+impl Layer {
+    /// Groups of two by two of `fine`.
+    fn over(fine: &Self) -> Result<Self, Error> {
+        let size = fine.size.map(|n| n.div_ceil(2));
+        let mut boxes = reserved(size[0] * size[1])?;
+        for k in 0..size[0] * size[1] {
+            let (i, j) = (k / size[1] * 2, k % size[1] * 2);
+            let mut group = fine.boxes[i * fine.size[1] + j];
+            for a in i..(i + 2).min(fine.size[0]) {
+                for b in j..(j + 2).min(fine.size[1]) {
+                    group = group.joined(&fine.boxes[a * fine.size[1] + b]);
+                }
+            }
+            boxes.push(group);
+        }
+        Ok(Self { size, boxes })
+    }
+}
+
+/// Groups of cells in rows and columns, from single ones to all of them.
+#[derive(Debug)]
+pub struct Groups {
+    layers: Vec<Layer>,
+}
+
+impl Groups {
+    /// Over boxes in `size` rows and columns.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn new(size: [usize; 2], boxes: Vec<Oriented>) -> Result<Self, Error> {
+        let mut layers = vec![Layer { size, boxes }];
+        while layers[layers.len() - 1].boxes.len() > 1 {
+            layers.push(Layer::over(&layers[layers.len() - 1])?);
+        }
+        Ok(Self { layers })
+    }
+
+    /// Raises the bounds of a cell, two for each of its views, to what all cells ask but those of the groups (first and last
+    /// row, first and last column) that are `covered` already.
+    pub fn far(
+        &self,
+        views: &[View],
+        covered: impl Fn([usize; 2], [usize; 2]) -> bool,
+        bends: &mut [f64],
+    ) {
+        let size = self.layers[0].size;
+        let mut waiting = [(0usize, 0usize, 0usize); 4 * usize::BITS as usize];
+        waiting[0] = (self.layers.len() - 1, 0, 0);
+        let mut count = 1;
+        while count > 0 {
+            count -= 1;
+            let (layer, i, j) = waiting[count];
+            let ends =
+                |k: usize, at: usize| [at << layer, (((at + 1) << layer) - 1).min(size[k] - 1)];
+            if covered(ends(0, i), ends(1, j)) {
+                continue;
+            }
+            let other = &self.layers[layer].boxes[i * self.layers[layer].size[1] + j];
+            let least = bends.iter().fold(f64::INFINITY, |least, x| x.min(least));
+            let mut more = false;
+            for (view, bends) in views.iter().zip(bends.chunks_exact_mut(2)) {
+                for (bend, ask) in bends.iter_mut().zip(view.asked(other, least)) {
+                    more |= ask > *bend;
+                    if layer == 0 {
+                        *bend = bend.max(ask);
+                    }
+                }
+            }
+            if layer == 0 && bends.iter().all(|x| *x == f64::INFINITY) {
+                return;
+            }
+            if layer == 0 || !more {
+                continue;
+            }
+            let fine = self.layers[layer - 1].size;
+            for a in 2 * i..(2 * i + 2).min(fine[0]) {
+                for b in 2 * j..(2 * j + 2).min(fine[1]) {
+                    waiting[count] = (layer - 1, a, b);
+                    count += 1;
+                }
+            }
+        }
+    }
+}
+
+/// A cell with a direction, seen from what is elsewhere.
+pub struct View<'a> {
+    pub from: &'a Oriented,
+    /// Unit vector, and how far the direction of a place may be from it.
+    pub axis: Vector,
+    pub cone: f64,
+    /// How far the places may lie below the middle of the box, along the axis.
+    pub depth: f64,
+}
+
+impl View<'_> {
+    /// What is in a box asks of the bounds of a cell, for the axis and the opposite one: the greatest `N.e / |e|^2` for `|e|` at
+    /// least the distance d, and normals N within the cone of A: `A.e / d^2 + |N - A| / d`, and 1 / d.
+    ///
+    /// Not looked at any closer when it is at most `least`.
+    pub fn asked(&self, other: &Oriented, least: f64) -> [f64; 2] {
+        let move_ = sub(other.center, self.from.center);
+        let apart = (norm(move_) - self.from.radius - other.radius) / MARGIN;
+        if apart * least >= 1.0 {
+            return [1.0 / apart; 2];
+        }
+        let distance = self.from.distance(other).max(apart);
+        if distance.is_nan() || distance <= 0.0 {
+            return [f64::INFINITY; 2];
+        }
+        let height = dot(move_, self.axis);
+        let reach = (other.reach(self.axis) + 1e-12) * MARGIN + self.depth;
+        let near = 1.0 / distance;
+        [height, -height].map(|height| {
+            let rise = (height + reach).max(0.0);
+            (near * (rise * near + self.cone)).min(near) * MARGIN
+        })
+    }
+}
