@@ -290,9 +290,7 @@ fn a_ray_allocates_nothing_with_a_memory_that_has_seen_the_surface() {
     for (name, shape) in shapes() {
         let Shape::Surface(surface) = shape else { continue };
         let rays = rays(&surface, 200);
-        let begin = std::time::Instant::now();
         let caster = Caster::new(Arc::new(surface), &mut || false).expect("a caster");
-        let built = begin.elapsed();
         let mut memory = CastMemory::default();
         let crossing: Vec<Ray> = rays
             .into_iter()
@@ -303,7 +301,6 @@ fn a_ray_allocates_nothing_with_a_memory_that_has_seen_the_surface() {
                 memory.by_line() == before
             })
             .collect();
-        eprintln!("{name} {} cells, {} crossing, by line {}, {built:?} {:?}", caster.cell_count(), crossing.len(), memory.by_line(), begin.elapsed());
         let count = allocations(|| {
             for ray in &crossing {
                 caster.cast(ray, &mut memory);

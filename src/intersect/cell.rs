@@ -130,12 +130,6 @@ impl Scaled {
         Self { degree, values }
     }
 
-    fn coefficients(&self) -> Vec<f64> {
-        let mut out = self.values.clone();
-        scale_down_2d(&mut out, self.degree);
-        out
-    }
-
     fn times(&self, other: &Self) -> Self {
         let degree =
             Bidegree { s: self.degree.s + other.degree.s, t: self.degree.t + other.degree.t };
@@ -149,68 +143,61 @@ impl Scaled {
         self.values.iter_mut().zip(&other.values).for_each(|(x, y)| *x += factor * y);
         self
     }
-
-    /// The derivative along a direction of [-1, 1]^2, with its degree raised again.
-    fn slope(&self, direction: usize) -> Self {
-        let (degree, width) = (self.degree, self.degree.t + 1);
-        let plain = self.coefficients();
-        let (n, stride) = if direction == 0 { (degree.s, width) } else { (degree.t, 1) };
-        let at = |k: usize| {
-            let i = if direction == 0 { k / width } else { k % width };
-            let before = if i > 0 { plain[k] - plain[k - stride] } else { 0.0 };
-            let after = if i < n { plain[k + stride] - plain[k] } else { 0.0 };
-            0.5 * (i as f64 * before + (n - i) as f64 * after)
-        };
-        Self::new((0..plain.len()).map(at).collect(), degree)
-    }
 }
 
-/// A rational net: `r - W X0`, W, and the least and greatest coefficient of W.
-struct Net {
-    parts: [Scaled; 3],
-    weight: Scaled,
-    weights: [f64; 2],
+/// Polynomials of one bidegree on [-1, 1]^2 as a net: Bernstein coefficients, polynomial by polynomial.
+struct Plain<const N: usize> {
+    degree: Bidegree,
+    values: [Vec<f64>; N],
 }
 
-impl Net {
-    fn new(poles: &[f64], degree: Bidegree, middle: Vector) -> Self {
-        let count = degree.count();
-        let weight = &poles[3 * count..];
-        let parts = [0, 1, 2].map(|c| {
-            let of = |k: usize| poles[c * count + k] - weight[k] * middle[c];
-            Scaled::new((0..count).map(of).collect(), degree)
+impl<const N: usize> Plain<N> {
+    fn new(parts: [Scaled; N]) -> Self {
+        let degree = parts[0].degree;
+        let values = parts.map(|mut part| {
+            scale_down_2d(&mut part.values, degree);
+            part.values
         });
-        let weights = weight
-            .iter()
-            .fold([f64::INFINITY, 0.0f64], |[low, high], &w| [low.min(w), high.max(w)]);
-        Self { parts, weight: Scaled::new(weight.to_vec(), degree), weights }
+        Self { degree, values }
     }
 
-    /// `W^2` times the derivative along a direction.
-    fn slopes(&self, k: usize) -> [Scaled; 3] {
-        let turn = self.weight.slope(k);
-        [0, 1, 2].map(|c| {
-            let first = self.weight.times(&self.parts[c].slope(k));
-            first.plus(-1.0, &turn.times(&self.parts[c]))
-        })
+    /// The greatest length of a coefficient.
+    fn greatest(&self) -> f64 {
+        let square = |k: usize| self.values.iter().map(|list| list[k] * list[k]).sum();
+        (0..self.values[0].len()).map(square).fold(0.0, f64::max).sqrt()
+    }
+
+    fn slope(&self, direction: usize) -> Self {
+        let (Bidegree { s, t }, width) = (self.degree, self.degree.t + 1);
+        let (n, stride) = if direction == 0 { (s, width) } else { (t, 1) };
+        let degree = Bidegree {
+            s: if direction == 0 { s.saturating_sub(1) } else { s },
+            t: if direction == 0 { t } else { t.saturating_sub(1) },
+        };
+        let columns = degree.t + 1;
+        let values = self.values.each_ref().map(|list| {
+            let step = |k: usize| {
+                let k = k / columns * width + k % columns;
+                if n == 0 { 0.0 } else { 0.5 * n as f64 * (list[k + stride] - list[k]) }
+            };
+            (0..degree.count()).map(step).collect()
+        });
+        Self { degree, values }
+    }
+
+    /// Bounds of the values, of the derivatives along a and b, and of the derivatives aa, ab, bb.
+    fn bounds(&self) -> Bounds {
+        let [a, b] = [0, 1].map(|k| self.slope(k));
+        let bends = [a.slope(0), a.slope(1), b.slope(1)].map(|part| part.greatest());
+        Bounds { off: self.greatest(), slopes: [a.greatest(), b.greatest()], bends }
     }
 }
 
-/// The greatest coefficient of a vector of polynomials of one bidegree.
-fn greatest(parts: &[Scaled; 3]) -> f64 {
-    let [x, y, z] = [0, 1, 2].map(|c| parts[c].coefficients());
-    x.iter().zip(&y).zip(&z).fold(0.0, |most: f64, ((x, y), z)| most.max(norm([*x, *y, *z])))
-}
-
-/// How far the coefficients of a vector of polynomials wander along each direction.
-fn changes(parts: &[Scaled; 3]) -> [f64; 2] {
-    let degree = parts[0].degree;
-    let [x, y, z] = [0, 1, 2].map(|c| parts[c].coefficients());
-    let width = degree.t + 1;
-    let step = |a: usize, b: usize| norm([x[b] - x[a], y[b] - y[a], z[b] - z[a]]);
-    let along_s = |j: usize| (0..degree.s).map(|i| step(i * width + j, (i + 1) * width + j)).sum();
-    let along_t = |i: usize| (0..degree.t).map(|j| step(i * width + j, i * width + j + 1)).sum();
-    [(0..width).map(along_s).fold(0.0, f64::max), (0..=degree.s).map(along_t).fold(0.0, f64::max)]
+/// Bounds of lengths: of a function, its first and its second derivatives.
+struct Bounds {
+    off: f64,
+    slopes: [f64; 2],
+    bends: [f64; 3],
 }
 
 impl Cell {
@@ -240,18 +227,25 @@ impl Cell {
         cell.bends[1] = mean([a, b, c, d], [1., -1., -1., 1.]);
         cell.centre(degree, &place);
         let (steps, degrees) = (cell.steps(degree, radius), (degree.s + degree.t) as f64);
-        let spread = if rational {
-            let net = Net::new(poles, degree, cell.middle);
-            cell.bound_rational(&net);
-            net.weights[1] / net.weights[0]
+        let (of, turns, spread) = if rational {
+            cell.bound_rational(degree, poles)
         } else {
-            cell.bound(degree, &place, poles);
-            1.0
+            (cell.bound(degree, poles), Bounds { off: 1.0, slopes: [0.0; 2], bends: [0.0; 3] }, 1.0)
         };
         // Rounding: of the places, and twice as much for each derivative, over the weights that divide.
         let steps = steps * spread * spread;
-        cell.off = cell.off * (1.0 + 1e-9) + steps;
-        cell.slopes = cell.slopes.map(|x| x * (1.0 + 1e-9) + 8.0 * degrees * steps);
+        let more = 1.0 + 1e-9;
+        cell.off = of.off * more + steps;
+        // With N = W E: `W E_a = N_a - W_a E`, `W E_aa = N_aa - W_aa E - 2 W_a E_a`.
+        let first = |k: usize| of.slopes[k] + turns.slopes[k] * cell.off;
+        cell.slopes = [0, 1].map(|k| first(k) * more + 8.0 * degrees * steps);
+        let [[p, q], [a, b]] = [turns.slopes, cell.slopes];
+        let mixed = [2.0 * p * a, p * b + q * a, 2.0 * q * b];
+        let second = |k: usize| of.bends[k] + turns.bends[k] * cell.off + mixed[k];
+        cell.most_bent = [0, 1, 2].map(|k| second(k) * more + 32.0 * degrees * degrees * steps);
+        let [aa, ab, bb] = cell.most_bent;
+        let lengths = cell.edges.map(norm);
+        cell.gains = [aa / lengths[0] + ab / lengths[1], ab / lengths[0] + bb / lengths[1]];
         cell
     }
 
@@ -302,113 +296,72 @@ impl Cell {
         sub(place, model)
     }
 
-    /// Bounds of a polynomial net.
-    fn bound(&mut self, degree: Bidegree, place: &impl Fn(usize) -> Vector, poles: &[f64]) {
+    /// Bounds of E of a polynomial net.
+    fn bound(&self, degree: Bidegree, poles: &[f64]) -> Bounds {
         let (count, width) = (degree.count(), degree.t + 1);
-        let mut bent = [[0.0f64; 2]; 2];
+        let (x, rest) = poles.split_at(count);
+        let (y, z) = rest.split_at(count);
+        let place = |k: usize| [x[k], y[k], z[k]];
+        let square = |v: Vector| dot(v, v);
+        let mut off = 0.0f64;
         for k in 0..count {
-            self.off = self.off.max(norm(self.residual(degree, k, place(k))));
-            let mut include = |direction: usize, other: usize, n: usize| {
-                let by = 0.5 * n as f64;
-                let slope = |k: usize, other: usize| {
-                    [0, 1, 2].map(|c| by * (poles[c * count + other] - poles[c * count + k]))
-                };
-                let here = slope(k, other);
-                let off = norm(sub(here, self.edges[direction]));
-                self.slopes[direction] = self.slopes[direction].max(off);
-                // The same difference one row and one column on.
-                for (along, step, is_there) in
-                    [(0, width, other / width < degree.s), (1, 1, other % width < degree.t)]
-                {
-                    if is_there {
-                        let turn = norm(sub(slope(k + step, other + step), here));
-                        let times = if along == 0 { degree.s } else { degree.t } as f64;
-                        bent[direction][along] = bent[direction][along].max(times * turn);
+            off = off.max(square(self.residual(degree, k, place(k))));
+        }
+        let (mut slopes, mut bent) = ([0.0; 2], [[0.0f64; 2]; 2]);
+        for (direction, n, stride) in [(0, degree.s, width), (1, degree.t, 1)] {
+            let rows = if direction == 0 { degree.s } else { degree.s + 1 };
+            let columns = if direction == 0 { width } else { degree.t };
+            let slope = |k: usize| scaled(sub(place(k + stride), place(k)), 0.5 * n as f64);
+            let (mut off, mut turns) = (0.0f64, [0.0f64; 2]);
+            for i in 0..rows {
+                for j in 0..columns {
+                    let here = slope(i * width + j);
+                    off = off.max(square(sub(here, self.edges[direction])));
+                    // The same difference one row and one column on.
+                    if i + 1 < rows {
+                        turns[0] = turns[0].max(square(sub(slope((i + 1) * width + j), here)));
+                    }
+                    if j + 1 < columns {
+                        turns[1] = turns[1].max(square(sub(slope(i * width + j + 1), here)));
                     }
                 }
-            };
-            if k / width < degree.s {
-                include(0, k + width, degree.s);
             }
-            if k % width < degree.t {
-                include(1, k + 1, degree.t);
-            }
+            slopes[direction] = off.sqrt();
+            let less = n.saturating_sub(1);
+            let degrees = if direction == 0 { [less, degree.t] } else { [degree.s, less] };
+            bent[direction] = [0, 1].map(|by| 0.5 * degrees[by] as f64 * turns[by].sqrt());
         }
-        self.gain(bent);
+        Bounds {
+            off: off.sqrt(),
+            slopes,
+            bends: [bent[0][0], bent[0][1].max(bent[1][0]), bent[1][1]],
+        }
     }
 
-    /// Sets the gains from how much the slope along each direction (first index) changes along each (second).
-    fn gain(&mut self, bent: [[f64; 2]; 2]) {
-        let lengths = self.edges.map(norm);
-        self.gains = [0, 1].map(|k| bent[0][k] / lengths[0] + bent[1][k] / lengths[1]);
-    }
-
-    /// Bounds of a rational net.
-    ///
-    /// `W E = r - W (X0 + a Xa + b Xb)` and `W^2 X_a = W r_a - W_a r`: the coefficients of each are formed, so that what cancels does.
-    fn bound_rational(&mut self, net: &Net) {
-        let [least, _] = net.weights;
+    /// Bounds of N = W E of a rational net, of W, both over the least weight, and the greatest weight over the least. The coefficients of
+    /// `W E = r - W (X0 + a Xa + b Xb)` are formed, so that what cancels does.
+    fn bound_rational(&self, degree: Bidegree, poles: &[f64]) -> (Bounds, Bounds, f64) {
+        let count = degree.count();
+        let weight = &poles[3 * count..];
+        let fold = |[low, high]: [f64; 2], &w: &f64| [low.min(w), high.max(w)];
+        let [least, most] = weight.iter().fold([f64::INFINITY, 0.0], fold);
         // 1, a and b with the degree (1, 1).
         let bilinear = Bidegree { s: 1, t: 1 };
         let [one, a, b] = [[1., 1., 1., 1.], [-1., -1., 1., 1.], [-1., 1., -1., 1.]]
             .map(|values| Scaled::new(values.to_vec(), bilinear));
-        let linear = [net.weight.times(&a), net.weight.times(&b)];
-        let edges = self.edges;
-        let off = [0, 1, 2].map(|c| {
-            let part = net.parts[c].times(&one).plus(-edges[0][c], &linear[0]);
-            part.plus(-edges[1][c], &linear[1])
+        let w = Scaled::new(weight.to_vec(), degree);
+        let linear = [w.times(&a), w.times(&b)];
+        let rest = [0, 1, 2].map(|c| {
+            let of = |k: usize| poles[c * count + k] - weight[k] * self.middle[c];
+            let part = Scaled::new((0..count).map(of).collect(), degree).times(&one);
+            part.plus(-self.edges[0][c], &linear[0]).plus(-self.edges[1][c], &linear[1])
         });
-        self.off = greatest(&off) / least;
-        let square = net.weight.times(&net.weight);
-        let mut bent = [[0.0; 2]; 2];
-        for k in 0..2 {
-            let slopes = net.slopes(k);
-            let mut axis = 0..3;
-            let rest = slopes.map(|part| {
-                let c = axis.next().unwrap_or(0);
-                part.plus(-edges[k][c], &square)
-            });
-            self.slopes[k] = greatest(&rest) / (least * least);
-            bent[k] = changes(&rest);
-        }
-        self.gain(bent);
-    }
-
-    /// Bounds the second derivatives, of the same net: `W^2 X_aa = (W^2 X_a)_a - 2 W W_a X_a`.
-    pub fn bound_bends(
-        &mut self,
-        poles: &[f64],
-        degree: Bidegree,
-        rational: bool,
-        (center, radius): (Vector, f64),
-    ) {
-        // The model may have been moved to where the center of the patch is.
-        let net = if rational {
-            Net::new(poles, degree, sub(self.middle, center))
-        } else {
-            let mut all = poles.to_vec();
-            all.resize(4 * degree.count(), 1.0);
-            Net::new(&all, degree, sub(self.middle, center))
+        let over = |x: Bounds| Bounds {
+            off: x.off / least,
+            slopes: x.slopes.map(|x| x / least),
+            bends: x.bends.map(|x| x / least),
         };
-        let [least, most] = net.weights;
-        let steepest = [0, 1].map(|k| {
-            let turns = net.weight.slope(k).coefficients();
-            turns.into_iter().fold(0.0f64, |most, x| most.max(x.abs()))
-        });
-        let slopes = if rational {
-            [net.slopes(0), net.slopes(1)]
-        } else {
-            [0, 1].map(|k| [0, 1, 2].map(|c| net.parts[c].slope(k)))
-        };
-        let speed = [0, 1].map(|k| norm(self.edges[k]) + self.slopes[k]);
-        let second = |k: usize, by: usize| {
-            let of = greatest(&[0, 1, 2].map(|c| slopes[k][c].slope(by)));
-            of / (least * least) + 2.0 * steepest[by] * speed[k] / least
-        };
-        let bent = [second(0, 0), second(0, 1).min(second(1, 0)), second(1, 1)];
-        let degrees = (degree.s + degree.t) as f64;
-        let rounding = self.steps(degree, radius) * (most / least) * (most / least);
-        self.most_bent = bent.map(|x| x * (1.0 + 1e-9) + 32.0 * degrees * degrees * rounding);
+        (over(Plain::new(rest).bounds()), over(Plain::new([w]).bounds()), most / least)
     }
 
     /// How near a line along the normal comes to crossing twice: its deviation.

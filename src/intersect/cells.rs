@@ -22,11 +22,8 @@ const CALM: f64 = 0.2;
 /// Most cells, unless there are more patches.
 const MOST_CELLS: usize = 1 << 19;
 
-/// Work that the cells of a surface may take, about, in multiplications: a tenth of a second for each 2^24.
-const MOST_WORK: usize = 1 << 26;
-
-/// Cells as crooked as this by a rough look are cut without the bounds.
-const ROUGHLY: f64 = 2.0 * CALM;
+/// Work that the cells of a surface may take, about, in multiplications: a tenth of a second or two.
+const MOST_WORK: usize = 1 << 27;
 
 /// Most halvings of a patch.
 const DEEPEST: u32 = 12;
@@ -177,9 +174,8 @@ impl Cells {
 /// [`Error::OutOfMemory`], [`Error::Cancelled`].
 pub fn cells_of(index: &SurfaceIndex, poll: Poll) -> Result<Cells, Error> {
     let (mut packets, mut rest, mut boxes) = (Vec::new(), Vec::new(), Vec::new());
-    // Bounds of rational cells are products of nets; of the others, cutting takes the most.
-    let (count, degrees) = (index.degree.count(), index.degree.s + index.degree.t);
-    let each = if index.rational { 16 * count * count } else { 2 * count * degrees };
+    // Cutting, bounds, and what is halved again.
+    let each = 4 * index.degree.count() * (index.degree.s + index.degree.t + 8);
     let all = MOST_CELLS.min(MOST_WORK / each);
     let most = (all / index.patches.len().max(1)).max(1);
     let deepest = DEEPEST.min(most.ilog2());
@@ -198,22 +194,12 @@ pub fn cells_of(index: &SurfaceIndex, poll: Poll) -> Result<Cells, Error> {
         let mut waiting = vec![([0.0, 1.0, 0.0, 1.0], 0)];
         while let Some((area, depth)) = waiting.pop() {
             cut(index, patch, area, &mut net);
-            let crooked = if depth == deepest {
-                None
-            } else {
-                rough(index, patch, &net).filter(|cell| cell.crookedness() > ROUGHLY)
-            };
-            let (mut cell, aabb) = match crooked {
-                Some(cell) => (cell, Aabb::EMPTY),
-                None => model(index, patch, &net),
-            };
+            let (cell, aabb) = model(index, patch, &net);
             if depth < deepest && cell.crookedness() > CALM {
                 let [a, b] = halves(&cell, area);
                 waiting.extend([(b, depth + 1), (a, depth + 1)]);
                 continue;
             }
-            let of = &index.patches[patch];
-            cell.bound_bends(&net, index.degree, index.rational, (of.center, of.radius));
             let lane = rest.len() % WIDTH;
             rest.try_reserve(1).map_err(|_| Error::OutOfMemory)?;
             if lane == 0 {
@@ -242,16 +228,6 @@ fn cut(index: &SurfaceIndex, patch: usize, area: [f64; 4], net: &mut Vec<f64>) {
     for component in net.chunks_exact_mut(index.degree.count()) {
         cut_2d(component, index.degree, [area[0], area[1]], [area[2], area[3]]);
     }
-}
-
-/// The model of a rational net as if its weights were equal: it tells where to halve, and bounds nothing.
-fn rough(index: &SurfaceIndex, patch: usize, net: &[f64]) -> Option<Cell> {
-    if !index.rational {
-        return None;
-    }
-    let count = index.degree.count();
-    let places: Vec<f64> = (0..3 * count).map(|k| net[k] / net[3 * count + k % count]).collect();
-    Some(Cell::new(&places, index.degree, false, index.patches[patch].radius))
 }
 
 /// The model of the net of a part of a patch in the coordinates of the index, with its box.
