@@ -468,3 +468,87 @@ fn a_spent_budget_lists_what_is_open() {
     assert!(!section.is_complete());
     assert!(torus().section(&plane, &options, &mut || true).is_err());
 }
+
+/// The sheet of [`bumps`] under the map x / (1 + a x): rational, with planes where planes were.
+fn projected_bumps(rows: usize, a: Vector) -> IndexedSurface {
+    let sheet = bumps(rows);
+    let s = sheet.surface();
+    let weights: Vec<f64> = s.poles().iter().map(|&x| 1.0 + dot(a, x)).collect();
+    let poles: Vec<Vector> =
+        s.poles().iter().zip(&weights).map(|(x, w)| x.map(|c| c / w)).collect();
+    let (knots, count) = (s.knots_u().values(), s.knots_u().pole_count());
+    let surface = Surface::new(knots, knots, 3, 3, &poles, count, count, Some(&weights));
+    IndexedSurface::new(surface.unwrap())
+}
+
+#[test]
+fn stacks_of_planes_find_all_loops_of_rational_sheets() {
+    let (rows, a) = (3, [0.1, -0.03, 0.4]);
+    let sheet = projected_bumps(rows, a);
+    let top = 4.0 / 9.0;
+    let mut heights: Vec<f64> = (1..8).map(|k| top * f64::from(k) / 8.0).collect();
+    heights.extend([1e-2, 1e-4, 1e-6, 1e-8].map(|gap| top - gap));
+    let options = SectionOptions { chord: 1e-3, ..SectionOptions::default() };
+    for m in motions().into_iter().take(2) {
+        let shape = m.surface(&sheet);
+        // z = h of the sheet is Z + h a X = h of its image.
+        let of = |h: f64| {
+            let normal = [h * a[0], h * a[1], 1.0 + h * a[2]];
+            let square = dot(normal, normal);
+            plane(&m, normal.map(|x| x * h / square), normal)
+        };
+        let planes: Vec<Quadric> = heights.iter().map(|&h| of(h)).collect();
+        let stack = shape.sections(&planes, &options, 2, &mut |_| false).unwrap();
+        for (section, h) in stack.iter().zip(&heights) {
+            let text = || summary(section);
+            assert!(section.is_complete() && section.contacts.is_empty(), "{h} {m:?} {}", text());
+            assert_eq!(section.branches.len(), rows * rows, "{h} {m:?} {}", text());
+            assert_eq!(loops(section), rows * rows, "{h} {m:?} {}", text());
+            // Back through the map: a point of the sheet at height h.
+            check_points(section, &m, 3e-13, |x| x[2] / (1.0 - dot(a, x)) - h);
+            for p in section.branches.iter().flat_map(|b| &b.points) {
+                let off = sub(p.point, shape.surface().evaluate(p.at[0], p.at[1]));
+                assert!(norm(off) <= 1e-14 * m.scale, "{h} {m:?}");
+            }
+        }
+        let none = shape.sections(&[of(top + 1e-7)], &options, 1, &mut |_| false).unwrap();
+        assert_eq!(none, [Section::default()]);
+    }
+}
+
+#[test]
+fn stacks_of_planes_cut_rings_and_balls_in_known_circles() {
+    let (ring, ball) = (torus(), sphere([0.0, 1.0]));
+    let options = SectionOptions { chord: 1e-3, ..SectionOptions::default() };
+    for m in motions().into_iter().take(4) {
+        let places: Vec<f64> = (0..20).map(|k| -2.6 + 0.266 * f64::from(k)).collect();
+        let stack = |shape: &IndexedSurface, n: Vector| {
+            let planes: Vec<Quadric> =
+                places.iter().map(|&h| plane(&m, n.map(|x| x * h), n)).collect();
+            m.surface(shape).sections(&planes, &options, 2, &mut |_| false).unwrap()
+        };
+        // Along its axis: two circles; across: two ovals, then one.
+        let (up, across) = (stack(&ring, [0.0, 0.0, 1.0]), stack(&ring, [0.6, 0.8, 0.0]));
+        let turned = stack(&ball, [0.48, 0.6, 0.64]);
+        for (k, &h) in places.iter().enumerate() {
+            let wanted = [
+                if h.abs() < 0.5 { 2 } else { 0 },
+                if h.abs() < 1.5 { 2 } else { usize::from(h.abs() < 2.5) },
+                usize::from(h.abs() < 1.0),
+            ];
+            for (section, count) in [&up[k], &across[k], &turned[k]].into_iter().zip(wanted) {
+                let text = summary(section);
+                assert!(section.is_complete() && section.contacts.is_empty(), "{h} {m:?} {text}");
+                assert_eq!(
+                    (loops(section), section.branches.len()),
+                    (count, count),
+                    "{h} {m:?} {text}"
+                );
+            }
+            check_points(&up[k], &m, 3e-13, |x| {
+                ((x[0].hypot(x[1]) - 2.0).abs() - (0.25 - h * h).sqrt()).abs().max((x[2] - h).abs())
+            });
+            check_points(&turned[k], &m, 3e-13, |x| norm(x) - 1.0);
+        }
+    }
+}

@@ -14,13 +14,16 @@ use crate::bounds::{Vector, cross, dot, norm, scaled, sub};
 use crate::index::{SurfaceIndex, position_steps};
 
 /// Most parts of a cell that are looked at for one ray before the search with a tolerance takes over.
-const MOST_PARTS: usize = 256;
+const MOST_PARTS: usize = 1024;
 
 /// Part of a patch below which nothing is told apart.
 const LEAST_PART: f64 = 1e-12;
 
-/// How far outside its cell, in the patch's unit square, a crossing may come out and still be on the cell's rim.
-pub const RIM: f64 = 1e-11;
+/// How far outside its cell, in the patch's unit square, a crossing may come out at most and still be on the cell's rim.
+const RIM: f64 = 1e-11;
+
+/// The same as a length, where the patch is run through fast: of the size of the shape.
+const RIM_LENGTH: f64 = 1e-12;
 
 /// A step of this share of the cell is the last but one: two digits short of half of a double.
 const NEARLY: f64 = 1e-5;
@@ -46,6 +49,8 @@ pub struct Root {
     pub patch: usize,
     /// Its place in the unit square.
     pub at: [f64; 2],
+    /// How near the border of the patch it counts as on it.
+    pub rim: [f64; 2],
     /// Length along the ray from the beam's origin.
     pub along: f64,
     /// Sine of the angle between ray and surface.
@@ -133,7 +138,7 @@ impl Search<'_> {
         let start = [0, 1].map(|k| middle[k] + half[k] * at[k]);
         let Some(root) = self.newton(part.patch, base, start, half) else { return Outcome::Open };
         let x = [0, 1].map(|k| (root.at[k] - middle[k]) / half[k]);
-        if (0..2).all(|k| x[k].abs() <= 1.0 + RIM / half[k]) {
+        if (0..2).all(|k| x[k].abs() <= 1.0 + root.rim[k] / half[k]) {
             return Outcome::Crossing(root);
         }
         let edge = x.map(|x| x.clamp(-1.0, 1.0));
@@ -268,7 +273,8 @@ impl Search<'_> {
                 d = moved(there, step);
             }
             let slant = det.abs() / norm(cross(jet.s, jet.t));
-            return Some(Root { patch, at: x, along: dot(d, axis.direction), slant });
+            let rim = [jet.s, jet.t].map(|slope| (RIM_LENGTH / norm(slope)).clamp(1e-15, RIM));
+            return Some(Root { patch, at: x, rim, along: dot(d, axis.direction), slant });
         }
         None
     }

@@ -174,8 +174,9 @@ impl Cells {
 /// [`Error::OutOfMemory`], [`Error::Cancelled`].
 pub fn cells_of(index: &SurfaceIndex, poll: Poll) -> Result<Cells, Error> {
     let (mut packets, mut rest, mut boxes) = (Vec::new(), Vec::new(), Vec::new());
-    // Cutting, bounds, and what is halved again.
-    let each = 4 * index.degree.count() * (index.degree.s + index.degree.t + 8);
+    // Cutting, bounds, and what is halved again; products and derivatives of rational nets take memory.
+    let count = index.degree.count() + if index.rational { 64 } else { 0 };
+    let each = 4 * count * (index.degree.s + index.degree.t + 8);
     let all = MOST_CELLS.min(MOST_WORK / each);
     let most = (all / index.patches.len().max(1)).max(1);
     let deepest = DEEPEST.min(most.ilog2());

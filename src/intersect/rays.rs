@@ -10,7 +10,7 @@
 //! have none. References: Toth 1985; Martin et al., *Practical ray tracing of trimmed NURBS surfaces*, 2000.
 //! Limit: of two crossings nearer than the rounding one may be told.
 
-use super::cast::{RIM, Root, Search};
+use super::cast::{Root, Search};
 use super::cell::Axis;
 use super::cells::{Beam, Candidate, Cells, Walk, cells_of};
 use crate::batch::{self, Memory, Record};
@@ -18,10 +18,13 @@ use crate::bounds::{HALF_ULP, Vector, add, cross, dot, norm, scaled, sub};
 use crate::closest::{GREATEST_COORDINATE, QueryOptions};
 use crate::error::Error;
 use crate::index::{IndexedSurface, Poll, SurfaceIndex};
-use crate::preimage::Line;
+use crate::preimage::{DEFAULT_BUDGET, Line};
 use crate::set::Kind;
 use crate::simd::Level;
 use std::sync::Arc;
+
+/// Multiplications that the search with a tolerance may take for a ray, about: a tenth of a second. What is left open then is not proven.
+const MOST_BY_LINE: u64 = 1 << 27;
 
 /// What a hit is, and a ray: bits.
 pub mod ray_flag {
@@ -295,10 +298,11 @@ impl Caster {
         if root.along < beam.reach[0] || root.along > beam.reach[1] {
             return None;
         }
-        let snapped = root.at.map(|x| {
-            if x <= RIM {
+        let snapped = [0, 1].map(|k| {
+            let (x, rim) = (root.at[k], root.rim[k]);
+            if x <= rim {
                 0.0
-            } else if x >= 1.0 - RIM {
+            } else if x >= 1.0 - rim {
                 1.0
             } else {
                 x
@@ -359,7 +363,11 @@ impl Caster {
         let Ok(index) = self.shape.index(&mut || false) else { return ray_flag::NOT_PROVEN };
         let line = Line { origin: ray.origin, direction: ray.direction, reach: ray.reach };
         let tolerance = 1e-11 * index.frame.diagonal;
-        let set = self.shape.on_line(&line, tolerance, &QueryOptions::default(), &mut || false);
+        // A box takes products of nets.
+        let budget =
+            (MOST_BY_LINE / (index.degree.count() as u64).pow(2)).clamp(64, DEFAULT_BUDGET);
+        let options = QueryOptions { budget, ..QueryOptions::default() };
+        let set = self.shape.on_line(&line, tolerance, &options, &mut || false);
         let Ok(set) = set else { return ray_flag::NOT_PROVEN };
         let surface = self.shape.surface();
         let unit = scaled(ray.direction, 1.0 / norm(ray.direction));
