@@ -8,6 +8,7 @@ mod shapes;
 
 use footpoint::index::IndexedSurface;
 use footpoint::intersect::{CastMemory, Caster, Hit, Ray, ray_flag};
+use footpoint::surface::Surface;
 use shapes::asked::Shape;
 use shapes::{FAMILIES, Random, Vector, along, dot, extent, norm, sub};
 use std::sync::Arc;
@@ -30,6 +31,14 @@ fn on_ray(ray: &Ray, t: f64) -> Vector {
     along(ray.origin, ray.direction.map(|x| x / norm(ray.direction)), t)
 }
 
+/// How far a place moves when its parameters are rounded.
+fn rounded(surface: &Surface, hit: &Hit) -> f64 {
+    let mut partials = [[0.0; 3]; 3];
+    surface.partials(hit.u, hit.v, 1, &mut partials);
+    let [u0, u1, v0, v1] = surface.domain().map(f64::abs);
+    4.0 * f64::EPSILON * (u0.max(u1) * norm(partials[1]) + v0.max(v1) * norm(partials[2]))
+}
+
 fn check(name: &str, shape: IndexedSurface, seed: u64, count: usize, tally: &mut Tally) {
     let (diagonal, magnitude) = extent(shape.surface().bounding_box());
     let caster = Caster::new(Arc::new(shape), &mut || false).unwrap();
@@ -43,7 +52,8 @@ fn check(name: &str, shape: IndexedSurface, seed: u64, count: usize, tally: &mut
         let mut partials = [[0.0; 3]; 3];
         surface.partials(u, v, 1, &mut partials);
         let [target, su, sv] = partials;
-        let kind = ["through", "tangent", "past"][k % 3];
+        // Tangents take a search with a tolerance: few.
+        let kind = if k % 60 == 1 { "tangent" } else { ["through", "past"][k / 2 % 2] };
         let direction = match kind {
             "tangent" => {
                 let (a, b) = (r.between(-1.0, 1.0), r.between(-1.0, 1.0));
@@ -84,7 +94,8 @@ fn check(name: &str, shape: IndexedSurface, seed: u64, count: usize, tally: &mut
         assert!(hits.windows(2).all(|pair| pair[0].t <= pair[1].t), "{}", told());
         for hit in &hits {
             let t = hit.t >= ray.reach[0] - near && hit.t <= ray.reach[1];
-            assert!(t && norm(sub(hit.point, on_ray(&ray, hit.t))) <= near, "{}", told());
+            let off = norm(sub(hit.point, on_ray(&ray, hit.t)));
+            assert!(t && off <= near + rounded(surface, hit), "{off:e} {}", told());
             tally.touching += usize::from(hit.flags & ray_flag::TANGENTIAL != 0);
         }
         // What a line with a tolerance finds at a tangent is as exact as the root of the tolerance.
@@ -102,7 +113,8 @@ fn check(name: &str, shape: IndexedSurface, seed: u64, count: usize, tally: &mut
                 .map(|c| su[(c + 1) % 3] * sv[(c + 2) % 3] - su[(c + 2) % 3] * sv[(c + 1) % 3]);
             let sine = dot(n, direction).abs() / norm(n);
             let found = hits.iter().any(|hit| {
-                norm(sub(hit.point, target)) <= near / sine || hit.flags & ray_flag::OVERLAP != 0
+                norm(sub(hit.point, target)) <= (near + rounded(surface, hit)) / sine
+                    || hit.flags & ray_flag::OVERLAP != 0
             });
             assert!(found || sine.is_nan() || sine < 1e-4, "{sine:e} {}", told());
         }
