@@ -315,11 +315,10 @@ fn a_ray_allocates_nothing_with_a_memory_that_has_seen_the_surface() {
         let run = |count: usize| {
             let mut out = vec![Hit::none(0); count];
             let ray = |k: usize| crossing[k % crossing.len()];
-            let all = allocations(|| {
+            allocations(|| {
                 caster.first_hits(&ray, &mut out, 1, &mut |_| false).expect("hits");
                 caster.nearest_hits(&ray, &mut out, 1, &mut |_| false).expect("hits");
-            });
-            all
+            })
         };
         if !crossing.is_empty() {
             let (few, many) = (run(200), run(2000));
