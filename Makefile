@@ -25,7 +25,7 @@ help:
 	@echo "make demo-weights      the part of it that finds weights from wished distances, with two figures"
 	@echo "make compare-occt      compare the extrema with OpenCASCADE 7.6 on the cases in $(CASES) (minutes)"
 	@echo "make compare-fit       fit surfaces to grids of 100,000 points, beside OpenCASCADE (three minutes)"
-	@echo "make compare-intersect intersect pairs of surfaces beside OpenCASCADE and SISL, in turns (two minutes); RUNS=3"
+	@echo "make compare-intersect intersect pairs of surfaces, faces of solids, stacks of planes, rays beside OpenCASCADE, SISL and CGAL (ten minutes); RUNS=3"
 	@echo "make bench             time against OpenCASCADE, SISL and CGAL on the cases in $(CASES) (ten minutes); tables and"
 	@echo "                       pictures go to bench-out/; BENCH_QUICK=1 takes a fifth of the cases (two minutes)"
 	@echo "make bench-instructions  count instructions per query with callgrind, beside docs/instructions.csv; RECORD=1 appends"
@@ -157,10 +157,14 @@ compare-fit: build
 compare-intersect: build
 	$(call need,cmake g++)
 	-$(call need,,$(OCCT_PACKAGES))
+	-$(call need,,libcgal-dev)
 	-$(call need,,libsisl-dev)
 	cmake -S compare/intersect -B $(BUILD)/compare-intersect -DFOOTPOINT_LIB="$(abspath $(BUILD))/lib"
 	cmake --build $(BUILD)/compare-intersect -j $(JOBS)
 	$(BUILD)/compare-intersect/pairs $(RUNS)
+	if [ -x $(BUILD)/compare-intersect/rays ]; then $(BUILD)/compare-intersect/rays "$(CASES)"; fi
+	if [ -x $(BUILD)/compare-intersect/stacks ]; then $(BUILD)/compare-intersect/stacks "$(CASES)"; fi
+	if [ -x $(BUILD)/compare-intersect/faces ]; then $(BUILD)/compare-intersect/faces 200 1 $(BUILD)/compare-intersect/faces.csv; fi
 
 # A library that cannot be had is left out, and the tables say so.
 bench-drivers: build

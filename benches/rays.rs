@@ -9,9 +9,11 @@ mod cases;
 
 use footpoint::intersect::{CastMemory, Caster, Ray, ray_flag};
 use std::sync::Arc;
-use std::time::Instant;
 
 const RAYS: usize = 10_000;
+
+/// Least time of a measurement, s: the clock of a thread moves in steps of some milliseconds.
+const LEAST: f64 = 0.15;
 
 struct Random(u64);
 
@@ -35,7 +37,7 @@ fn seconds() -> f64 {
 fn main() {
     let wanted: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
     println!("case,patches,cells,build_ms,hits_per_ray,not_proven,by_line,rays_per_s");
-    let mut rates = Vec::new();
+    let (mut rates, mut builds) = (Vec::new(), Vec::new());
     for folder in cases::folders() {
         let case = cases::read(&folder);
         let cases::Shape::Surface(shape) = case.shape else { continue };
@@ -45,9 +47,14 @@ fn main() {
         let index = shape.index(&mut || false).expect("an index");
         let (diagonal, patches) = (index.frame.diagonal, index.patches.len());
         let shape = Arc::new(shape);
-        let begin = Instant::now();
-        let caster = Caster::new(shape, &mut || false).expect("a caster");
-        let build = begin.elapsed().as_secs_f64() * 1e3;
+        let begin = seconds();
+        let mut caster = Caster::new(shape.clone(), &mut || false).expect("a caster");
+        let mut times = 1;
+        while seconds() - begin < LEAST {
+            caster = Caster::new(shape.clone(), &mut || false).expect("a caster");
+            times += 1;
+        }
+        let build = (seconds() - begin) / f64::from(times) * 1e3;
         let surface = caster.shape().surface();
         let (low, high) = surface.bounding_box();
         let middle: [f64; 3] = std::array::from_fn(|k| 0.5 * (low[k] + high[k]));
@@ -65,19 +72,20 @@ fn main() {
             })
             .collect();
         let mut memory = CastMemory::default();
-        let mut best = f64::INFINITY;
-        let (mut hits, mut open) = (0, 0);
-        for _ in 0..3 {
+        let (mut hits, mut open, mut runs) = (0, 0, 0u32);
+        let begin = seconds();
+        while runs == 0 || seconds() - begin < LEAST {
             (hits, open) = (0, 0);
-            let begin = seconds();
             for ray in &rays {
                 let flags = caster.cast(ray, &mut memory);
                 open += usize::from(flags & ray_flag::NOT_PROVEN != 0);
                 hits += memory.hits.len();
             }
-            best = best.min(seconds() - begin);
+            runs += 1;
         }
-        let rate = RAYS as f64 / best;
+        let time = (seconds() - begin) / f64::from(runs);
+        builds.push(build);
+        let rate = RAYS as f64 / time;
         if case.name.starts_with("real") {
             rates.push(rate);
         }
@@ -85,11 +93,22 @@ fn main() {
         println!(
             "{},{patches},{cells},{build:.2},{per:.3},{open},{},{rate:.0}",
             case.name,
-            memory.by_line()
+            memory.by_line() / u64::from(runs)
         );
     }
     rates.sort_by(f64::total_cmp);
-    if !rates.is_empty() {
-        println!("median of the real ones: {:.0} rays/s on one thread", rates[rates.len() / 2]);
+    builds.sort_by(f64::total_cmp);
+    if let (Some(slowest), Some(longest)) = (rates.first(), builds.last()) {
+        let at = |list: &[f64], share: f64| list[(share * (list.len() - 1) as f64) as usize];
+        let [ten, quarter, half] = [0.1, 0.25, 0.5].map(|share| at(&rates, share));
+        println!(
+            "{} real ones, one thread, rays/s: least {slowest:.0}, a tenth below {ten:.0}, a quarter below {quarter:.0}, median {half:.0}",
+            rates.len()
+        );
+        println!(
+            "building, ms, all: median {:.1}, a tenth above {:.1}, most {longest:.0}",
+            at(&builds, 0.5),
+            at(&builds, 0.9)
+        );
     }
 }

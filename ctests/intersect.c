@@ -196,6 +196,12 @@ static void rays_hit(void) {
     CHECK_OK(fpt_caster_first(caster, origins, directions, RAYS, reach, &options, many));
     CHECK_SAME_BITS(one, many, sizeof one);
     CHECK(one[7].flags == (FPT_RAY_BAD_RAY | FPT_RAY_NOT_PROVEN) && one[7].count == 0);
+    CHECK_OK(fpt_caster_nearest(caster, origins, directions, RAYS, reach, &options, many));
+    for (k = 0; k < RAYS; k++) {
+        CHECK(many[k].count == (one[k].count > 0));
+        many[k].count = one[k].count;
+    }
+    CHECK_SAME_BITS(one, many, sizeof one);
     CHECK_OK(fpt_caster_all(caster, origins, directions, RAYS, reach, &options, &hits));
     CHECK_OK(fpt_ray_hits_count(hits, &total));
     CHECK(total > 0 && total <= 4 * RAYS);
@@ -218,7 +224,11 @@ static void rays_hit(void) {
     options.user = &asked;
     CHECK_STATUS(fpt_caster_first(caster, origins, directions, RAYS, NULL, &options, one), FPT_CANCELLED);
     CHECK(asked > 0 && isnan(one[RAYS - 1].t) && one[RAYS - 1].flags == FPT_RAY_NOT_PROVEN);
+    asked = 0;
+    CHECK_STATUS(fpt_caster_nearest(caster, origins, directions, RAYS, NULL, &options, many), FPT_CANCELLED);
+    CHECK(asked > 0 && isnan(many[RAYS - 1].t) && many[RAYS - 1].flags == FPT_RAY_NOT_PROVEN);
     CHECK_OK(fpt_caster_first(caster, NULL, NULL, 0, NULL, NULL, NULL));
+    CHECK_OK(fpt_caster_nearest(caster, NULL, NULL, 0, NULL, NULL, NULL));
     fpt_caster_free(caster);
 }
 
@@ -260,6 +270,7 @@ static void misuse_is_named(void) {
     CHECK(hits == NULL && asked > 0);
     CHECK_ERROR(fpt_caster_new(NULL, NULL, &caster), FPT_NULL_ARGUMENT, "surface");
     CHECK_ERROR(fpt_caster_first(NULL, NULL, NULL, 0, NULL, NULL, &record), FPT_NULL_ARGUMENT, "caster");
+    CHECK_ERROR(fpt_caster_nearest(NULL, NULL, NULL, 0, NULL, NULL, &record), FPT_NULL_ARGUMENT, "caster");
     CHECK_OK(fpt_caster_new(flat, NULL, &caster));
     CHECK_ERROR(fpt_caster_first(caster, NULL, NULL, 1, NULL, NULL, &record), FPT_NULL_ARGUMENT, "origins");
     CHECK_ERROR(fpt_caster_all(caster, NULL, NULL, 1, NULL, NULL, &all), FPT_NULL_ARGUMENT, "origins");

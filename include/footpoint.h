@@ -7724,6 +7724,28 @@ fpt_status fpt_caster_first(const struct fpt_caster *caster,
                             struct fpt_ray_hit *out);
 
 /**
+ * The first hit of each ray alone: what lies behind it is not looked at. Proven as fpt_caster_first; the records are the same but for
+ * `count`, which is 1, or 0 for none. Cost: half of fpt_caster_first where rays pass through two walls.
+ *
+ * @param origins     as for fpt_caster_first
+ * @param directions  as for fpt_caster_first
+ * @param count       as for fpt_caster_first
+ * @param reach       as for fpt_caster_first
+ * @param options     as for fpt_caster_first
+ * @param out         `count` records
+ * @return as fpt_caster_first
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_caster_nearest(const struct fpt_caster *caster,
+                              const double *origins,
+                              const double *directions,
+                              size_t count,
+                              const double *reach,
+                              const struct fpt_hit_options *options,
+                              struct fpt_ray_hit *out);
+
+/**
  * All hits of each ray, in the order along it.
  *
  * @param origins     as for fpt_caster_first

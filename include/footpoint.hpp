@@ -2635,6 +2635,14 @@ public:
         check(fpt_caster_first(get(), origins.data(), directions.data(), out.size(), part.data(), &options, out.data()));
         return out;
     }
+    /** As fpt_caster_nearest: origins and directions as x,y,z each. */
+    std::vector<fpt_ray_hit> nearest(span<const double> origins, span<const double> directions,
+                                     const reach &part = {0, std::numeric_limits<double>::infinity()},
+                                     const fpt_hit_options &options = hit_options()) const {
+        std::vector<fpt_ray_hit> out(count_of(origins, directions));
+        check(fpt_caster_nearest(get(), origins.data(), directions.data(), out.size(), part.data(), &options, out.data()));
+        return out;
+    }
     /** As fpt_caster_all: the hits of each ray. */
     std::vector<std::vector<fpt_ray_hit>> all(span<const double> origins, span<const double> directions,
                                               const reach &part = {0, std::numeric_limits<double>::infinity()},

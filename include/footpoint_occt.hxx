@@ -680,7 +680,8 @@ private:
 };
 
 /**
- * The class of this name: the curves that two bounded surfaces have in common, as B-splines within the tolerance. IsDone is false
+ * The class of this name: the curves that two bounded surfaces have in common, as B-splines within the tolerance; where a fit misses
+ * it, and the chords between the points of the branch are proven to be nearer, as the polyline of these points. IsDone is false
  * when the budget ran out or something is left undecided: nothing is lost silently. Unbounded surfaces (planes, cylinders of
  * infinite length) must be trimmed, offsets of free forms are refused (Standard_ConstructionError). Contacts in points and areas
  * are in Intersection().
@@ -696,8 +697,15 @@ public:
         const footpoint::surface a = bounded(S1, "S1"), b = bounded(S2, "S2");
         found_ = std::make_unique<surface_intersection>(a, b);
         for (std::size_t i = 0; i < found_->size(); i++) {
+            const std::size_t before = lines_.size();
             for (std::size_t part = 0, count = 1; part < count; part++) {
-                const branch_curves curves = found_->curves(a, b, i, Tol > 0 ? Tol : Precision::Confusion(), part);
+                const Standard_Real tolerance = Tol > 0 ? Tol : Precision::Confusion();
+                const branch_curves curves = found_->curves(a, b, i, tolerance, part);
+                if (curves.error > tolerance && curves.error > found_->branch(i).chord) {
+                    lines_.resize(before);
+                    lines_.push_back(polyline(found_->points(i)));
+                    break;
+                }
                 lines_.push_back(spline(curves.space));
                 count = curves.part_count;
             }
@@ -729,6 +737,25 @@ private:
         const auto net = detail::net_of(detail::plain(detail::basis(shape)), u, v);
         if (!net) detail::refuse(std::string(name) + ": has no form with poles");
         return detail::made(*net, gp_Trsf());
+    }
+
+    static Handle(Geom_Curve) polyline(const std::vector<fpt_intersection_point> &list) {
+        std::vector<gp_Pnt> places;
+        for (const fpt_intersection_point &p : list) {
+            const gp_Pnt place(p.point[0], p.point[1], p.point[2]);
+            if (places.empty() || place.Distance(places.back()) > 0) places.push_back(place);
+        }
+        const Standard_Integer count = Standard_Integer(places.size());
+        if (count < 2) detail::refuse("a branch in one point");
+        TColgp_Array1OfPnt points(1, count);
+        TColStd_Array1OfReal knots(1, count);
+        TColStd_Array1OfInteger times(1, count);
+        for (Standard_Integer k = 1; k <= count; k++) {
+            points.SetValue(k, places[std::size_t(k) - 1]);
+            knots.SetValue(k, k - 1);
+            times.SetValue(k, k == 1 || k == count ? 2 : 1);
+        }
+        return new Geom_BSplineCurve(points, knots, times, 1);
     }
 
     static Handle(Geom_Curve) spline(const footpoint::curve &curve) {

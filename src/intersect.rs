@@ -4,7 +4,7 @@
 //!   plane, quadric x surface   put in: a polynomial f(u, v) = 0     -> edges, level, branches: arcs between nodes
 //!   plane, quadric x curve     put in: a polynomial f(t) = 0        -> curve_quadric: certified zeros
 //!   plane, quadric x quadric   a pair of planes in their pencil     -> conics in closed form
-//!   ray x surface              cells that a line crosses once       -> cells, rays: millions
+//!   ray x surface              cells that a line crosses once       -> cells, cast, rays: millions
 //!   curve x curve, surface     boxes of both, halved                -> pairs, curves: crossings, contacts, overlaps
 //! ```
 //!
@@ -24,6 +24,8 @@ mod section;
 mod cell;
 
 mod cells;
+
+mod cast;
 
 mod rays;
 

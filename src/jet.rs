@@ -4,6 +4,10 @@
 //! `W d_s = r_s - W_s d`, `W d_ss = r_ss - 2 W_s d_s - W_ss d`, `W d_st = r_st - W_s d_t - W_t d_s - W_st d`.
 //! Reference: Piegl, Tiller, *The NURBS Book*, 2nd ed., equations 4.8 and 4.20.
 
+mod slopes;
+
+pub use slopes::Slopes;
+
 use crate::bezier::{Bidegree, basis};
 use crate::bounds::{Vector, dot, norm, sub};
 use crate::knots::MAX_DEGREE;
@@ -551,5 +555,9 @@ mod tests {
         close(jet.st, central(tp, tm, |j| j.s));
         close(jet.tt, central(tp, tm, |j| j.t));
         assert!(norm(sub(jet.d, patch.vector(s, t, p))) < 1e-15);
+        let slopes = patch.slopes(s, t, p);
+        for (a, b) in [(slopes.d, jet.d), (slopes.s, jet.s), (slopes.t, jet.t)] {
+            assert!(norm(sub(a, b)) < 1e-14);
+        }
     }
 }

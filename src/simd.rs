@@ -43,6 +43,10 @@ pub trait Lanes<const N: usize>:
     fn abs(self) -> Self;
     /// Lane by lane `if a < b { self } else { other }`.
     fn where_less(self, a: Self, b: Self, other: Self) -> Self;
+    /// Lane by lane the square root.
+    fn sqrt(self) -> Self;
+    /// Where `self < other`: bit k is lane k.
+    fn less(self, other: Self) -> u32;
 
     /// The lanes as an array.
     #[inline(always)]
@@ -180,6 +184,9 @@ mod tests {
                 low = low.min(y - sum.max(S::F8::splat(0.25)).abs());
                 let z = S::F4::load(&[x[1], x[2], x[3], x[5]]);
                 four = (four * z - z).max(z).where_less(four, z, four / z).abs().min(z + z);
+                let bits = y.less(low) | four.less(z) << 8;
+                sum = sum + y.abs().sqrt() * S::F8::splat(f64::from(bits));
+                four = four + z.abs().sqrt();
             }
             let (a, b) = (sum.array(), four.array());
             let mut out = [0.0; 12];

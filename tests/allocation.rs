@@ -14,6 +14,7 @@ use footpoint::batch;
 use footpoint::closest::{FootPoint, QueryOptions, Scope, Workspace};
 use footpoint::curve::Curve;
 use footpoint::index::{IndexedCurve, IndexedSurface};
+use footpoint::intersect::{CastMemory, Caster, Hit, Ray};
 use footpoint::normal::{Normals, Tangents, flag, of_curve, of_surface};
 use footpoint::preimage::ProjectMemory;
 use footpoint::refine::Method;
@@ -260,6 +261,82 @@ fn normals_tangents_uncertainties_and_paths_allocate_nothing_per_foot() {
             }
         };
         assert_eq!(count, 0, "{name}");
+    }
+}
+
+/// Rays from around a surface to points near it.
+fn rays(shape: &IndexedSurface, count: usize) -> Vec<Ray> {
+    let (low, high) = shape.surface().bounding_box();
+    let r = &mut Random(5);
+    let mut point = |by: f64| {
+        [0, 1, 2].map(|k| {
+            let (middle, half) = (0.5 * (low[k] + high[k]), 0.5 * (high[k] - low[k]) + 1e-3);
+            middle + by * half * r.between(-1.0, 1.0)
+        })
+    };
+    let all = [f64::NEG_INFINITY, f64::INFINITY];
+    (0..count)
+        .map(|_| {
+            let (origin, to) = (point(3.0), point(0.9));
+            Ray { origin, direction: [0, 1, 2].map(|k| to[k] - origin[k]), reach: all }
+        })
+        .collect()
+}
+
+/// A ray that touches the surface, or runs in it, is looked for with a tolerance, and its set of answers is new: these are left out.
+#[test]
+fn a_ray_allocates_nothing_with_a_memory_that_has_seen_the_surface() {
+    let mut crossings = 0;
+    for (name, shape) in shapes() {
+        let Shape::Surface(surface) = shape else { continue };
+        let knots = [surface.surface().knots_u(), surface.surface().knots_v()];
+        // Few where evaluation is slow.
+        let is_high = knots.iter().map(|k| k.degree() + 1).product::<usize>() > 500;
+        let rays = rays(&surface, if is_high { 5 } else { 200 });
+        let caster = Caster::new(Arc::new(surface), &mut || false).expect("a caster");
+        let mut memory = CastMemory::default();
+        let crossing: Vec<Ray> = rays
+            .into_iter()
+            .filter(|ray| {
+                let before = memory.by_line();
+                caster.cast(ray, &mut memory);
+                caster.nearest(ray, &mut memory);
+                memory.by_line() == before
+            })
+            .collect();
+        let count = allocations(|| {
+            for ray in &crossing {
+                caster.cast(ray, &mut memory);
+                crossings += memory.hits.len();
+                caster.nearest(ray, &mut memory);
+            }
+        });
+        assert_eq!(count, 0, "{name}: {} rays", crossing.len());
+        let run = |count: usize| {
+            let mut out = vec![Hit::none(0); count];
+            let ray = |k: usize| crossing[k % crossing.len()];
+            allocations(|| {
+                caster.first_hits(&ray, &mut out, 1, &mut |_| false).expect("hits");
+                caster.nearest_hits(&ray, &mut out, 1, &mut |_| false).expect("hits");
+            })
+        };
+        if !crossing.is_empty() {
+            let (few, many) = (run(200), run(2000));
+            assert!(many <= few, "{name}: {few} allocations for 200 rays, {many} for 2000");
+        }
+    }
+    assert!(crossings > 1000, "{crossings}");
+}
+
+#[test]
+fn a_caster_tells_the_bytes_that_it_holds() {
+    for (name, shape) in shapes() {
+        let Shape::Surface(surface) = shape else { continue };
+        let surface = Arc::new(surface);
+        surface.prepare(&mut || false).expect("an index");
+        let (caster, held) =
+            bytes(|| Caster::new(surface.clone(), &mut || false).expect("a caster"));
+        assert_told(caster.memory() - size_of::<Caster>(), held, &name);
     }
 }
 

@@ -209,3 +209,47 @@ fn a_spent_budget_says_what_is_open_and_a_stop_is_a_stop() {
     assert!(!hits.is_complete());
     assert!(unit.meet_curve(&unit, &HitOptions::default(), &mut || true).is_err());
 }
+
+/// A part of a curve has the hits of the whole that lie in it, at the whole's parameters; a hit on its end counts.
+#[test]
+fn a_part_of_a_curve_has_the_hits_that_lie_in_it() {
+    let mut random = Random(31);
+    let (mut all, mut left) = (0, 0);
+    for round in 0..60 {
+        let mut free = |flat: bool| {
+            let poles = [0; 4].map(|_| {
+                let x = random.point(1.0);
+                [x[0], x[1], if flat { 0.0 } else { x[2] }]
+            });
+            cubic(poles)
+        };
+        // In the plane, and in space against a surface.
+        let (a, b, ball) = (free(true), free(true), sphere([0.0, 1.0]));
+        let ask = |curve: &IndexedCurve| {
+            if round % 2 == 0 {
+                meet(&a, curve)
+            } else {
+                ball.meet_curve(curve, &HitOptions::default(), &mut || false).unwrap()
+            }
+        };
+        let b = if round % 2 == 0 { b } else { mapped(&free(false), |x| x.map(|c| 1.6 * c)) };
+        let whole = ask(&b);
+        assert!(whole.is_complete());
+        let [start, end] = [0.23, 0.71];
+        let part = ask(&IndexedCurve::new(b.curve().part(start, end).unwrap()));
+        assert!(part.is_complete());
+        let inside: Vec<f64> =
+            whole.hits.iter().map(|h| h.w).filter(|w| (start..=end).contains(w)).collect();
+        let found: Vec<f64> = part.hits.iter().map(|h| h.w).collect();
+        assert_eq!(found.len(), inside.len(), "{round} {found:?} {inside:?}");
+        assert!(found.iter().zip(&inside).all(|(x, y)| (x - y).abs() < 1e-9), "{round}");
+        all += whole.hits.len();
+        left += part.hits.len();
+        if let Some(hit) = whole.hits.iter().find(|h| h.w > 0.05 && h.w < 0.95) {
+            let ends = ask(&IndexedCurve::new(b.curve().part(hit.w, 1.0).unwrap()));
+            let near = ends.hits.iter().filter(|h| (h.w - hit.w).abs() < 1e-9).count();
+            assert_eq!(near, 1, "{round} {hit:?} {ends:?}");
+        }
+    }
+    assert!(left > 20 && all > left + 10, "{all} {left}");
+}

@@ -192,3 +192,27 @@ fn batches_have_the_same_bits_for_any_number_of_threads() {
         caster.first_hits(&|k| rays[k], &mut vec![Hit::none(0); 3_000], 1, &mut |done| done > 500);
     assert!(stopped.is_err());
 }
+
+#[test]
+fn the_first_hit_alone_is_the_first_of_all() {
+    let mut random = Random(23);
+    for shape in [torus(), sphere([0.0, 1.0]), cylinder([0.0, 1.0])] {
+        let caster = caster(shape);
+        let (mut memory, mut several) = (CastMemory::default(), 0);
+        for k in 0..4_000 {
+            let reach = if k % 2 == 0 { ALL } else { [0.0, f64::INFINITY] };
+            let ray = Ray { origin: random.point(2.5), direction: random.point(1.0), reach };
+            let (first, alone) =
+                (caster.first(&ray, &mut memory), caster.nearest(&ray, &mut memory));
+            assert_eq!(alone.count, first.count.min(1), "{ray:?} {first:?} {alone:?}");
+            several += usize::from(first.count > 1);
+            if first.count > 0 {
+                assert_eq!(alone, Hit { count: 1, ..first }, "{ray:?}");
+            }
+        }
+        assert!(several > 150, "{several}");
+    }
+    let bad = Ray { origin: [0.0; 3], direction: [0.0; 3], reach: ALL };
+    let hit = caster(torus()).nearest(&bad, &mut CastMemory::default());
+    assert!(hit.flags & ray_flag::BAD_RAY != 0 && hit.count == 0);
+}

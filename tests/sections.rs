@@ -333,6 +333,99 @@ fn all_small_loops_are_found_as_loops() {
     }
 }
 
+/// The sheet of [`bumps`] around the z axis at height `up`, mapped by inversion in the unit sphere: curved, rational, bidegree 6. Planes
+/// across the axis at height h become spheres through the origin about (0, 0, 1 / 2h).
+fn inverted_bumps(rows: usize, up: f64) -> IndexedSurface {
+    let sheet = bumps(rows);
+    let (surface, spans) = (sheet.surface(), 4 * rows);
+    let middle = 0.25 * (4 * rows + 2) as f64 / 2.0;
+    let at = |u: f64, v: f64| {
+        let x = surface.evaluate(u, v);
+        [x[0] - middle, x[1] - middle, x[2] + up]
+    };
+    // Bernstein coefficients of degree 6 from values at seven places.
+    let binomial = [1., 6., 15., 20., 15., 6., 1.];
+    let basis = |t: f64| -> [f64; 7] {
+        std::array::from_fn(|i| binomial[i] * t.powi(i as i32) * (1.0 - t).powi(6 - i as i32))
+    };
+    let fit = |values: [f64; 7]| -> [f64; 7] {
+        let mut rows: Vec<[f64; 8]> = (0..7)
+            .map(|k| {
+                let b = basis(k as f64 / 6.0);
+                std::array::from_fn(|i| if i < 7 { b[i] } else { values[k] })
+            })
+            .collect();
+        for c in 0..7 {
+            let best = (c..7).max_by(|&a, &b| rows[a][c].abs().total_cmp(&rows[b][c].abs()));
+            rows.swap(c, best.unwrap());
+            for r in (0..7).filter(|&r| r != c) {
+                let f = rows[r][c] / rows[c][c];
+                (c..8).for_each(|k| rows[r][k] -= f * rows[c][k]);
+            }
+        }
+        std::array::from_fn(|i| rows[i][7] / rows[i][i])
+    };
+    let count = 6 * spans + 1;
+    let (mut poles, mut weights) = (vec![[0.0; 3]; count * count], vec![0.0; count * count]);
+    for a in 0..spans {
+        for b in 0..spans {
+            // The homogeneous point: S, |S|^2.
+            let mut net = [[[0.0; 7]; 7]; 4];
+            for i in 0..7 {
+                for j in 0..7 {
+                    let x = at(a as f64 + i as f64 / 6.0, b as f64 + j as f64 / 6.0);
+                    (0..3).for_each(|c| net[c][i][j] = x[c]);
+                    net[3][i][j] = dot(x, x);
+                }
+            }
+            for part in &mut net {
+                *part = part.map(fit);
+                for j in 0..7 {
+                    let column = fit(std::array::from_fn(|i| part[i][j]));
+                    (0..7).for_each(|i| part[i][j] = column[i]);
+                }
+            }
+            for i in 0..7 {
+                for j in 0..7 {
+                    let k = (6 * a + i) * count + 6 * b + j;
+                    weights[k] = net[3][i][j];
+                    poles[k] = [0, 1, 2].map(|c| net[c][i][j] / net[3][i][j]);
+                }
+            }
+        }
+    }
+    let knots: Vec<f64> =
+        (0..count + 7).map(|k| (k.max(1) - 1) as f64 / 6.0).map(f64::floor).collect();
+    let knots: Vec<f64> = knots.into_iter().map(|k| k.min(spans as f64)).collect();
+    let surface = Surface::new(&knots, &knots, 6, 6, &poles, count, count, Some(&weights));
+    IndexedSurface::new(surface.unwrap())
+}
+
+#[test]
+fn all_small_loops_are_found_on_a_curved_rational_sheet_cut_by_a_sphere() {
+    for (rows, up) in [(1, 2.0), (3, 4.0)] {
+        let sheet = inverted_bumps(rows, up);
+        for m in motions().into_iter().take(if rows == 1 { 4 } else { 2 }) {
+            let shape = m.surface(&sheet);
+            let ball = |gap: f64| {
+                let radius = 0.5 / (up + 4.0 / 9.0 - gap);
+                Quadric::sphere(m.point([0.0, 0.0, radius]), radius * m.scale).unwrap()
+            };
+            // The map makes gaps smaller than a hundredth of the default tolerance.
+            let fine = SectionOptions { tolerance: 1e-9 * m.scale, ..SectionOptions::default() };
+            for gap in [1e-2, 1e-4, 1e-6, 1e-8] {
+                let section = shape.section(&ball(gap), &fine, &mut || false).unwrap();
+                let text = || summary(&section);
+                assert!(section.is_complete(), "{rows} {gap} {m:?} {}", text());
+                assert_eq!(section.branches.len(), rows * rows, "{rows} {gap} {m:?} {}", text());
+                assert_eq!(loops(&section), rows * rows, "{rows} {gap} {m:?} {}", text());
+                let above = shape.section(&ball(-gap), &fine, &mut || false).unwrap();
+                assert_eq!(above, Section::default(), "{rows} {gap}");
+            }
+        }
+    }
+}
+
 #[test]
 fn a_stack_of_planes_is_the_planes_one_by_one_for_any_number_of_threads() {
     let shape = torus();
@@ -374,4 +467,88 @@ fn a_spent_budget_lists_what_is_open() {
     let section = torus().section(&plane, &options, &mut || false).unwrap();
     assert!(!section.is_complete());
     assert!(torus().section(&plane, &options, &mut || true).is_err());
+}
+
+/// The sheet of [`bumps`] under the map x / (1 + a x): rational, with planes where planes were.
+fn projected_bumps(rows: usize, a: Vector) -> IndexedSurface {
+    let sheet = bumps(rows);
+    let s = sheet.surface();
+    let weights: Vec<f64> = s.poles().iter().map(|&x| 1.0 + dot(a, x)).collect();
+    let poles: Vec<Vector> =
+        s.poles().iter().zip(&weights).map(|(x, w)| x.map(|c| c / w)).collect();
+    let (knots, count) = (s.knots_u().values(), s.knots_u().pole_count());
+    let surface = Surface::new(knots, knots, 3, 3, &poles, count, count, Some(&weights));
+    IndexedSurface::new(surface.unwrap())
+}
+
+#[test]
+fn stacks_of_planes_find_all_loops_of_rational_sheets() {
+    let (rows, a) = (3, [0.1, -0.03, 0.4]);
+    let sheet = projected_bumps(rows, a);
+    let top = 4.0 / 9.0;
+    let mut heights: Vec<f64> = (1..8).map(|k| top * f64::from(k) / 8.0).collect();
+    heights.extend([1e-2, 1e-4, 1e-6, 1e-8].map(|gap| top - gap));
+    let options = SectionOptions { chord: 1e-3, ..SectionOptions::default() };
+    for m in motions().into_iter().take(2) {
+        let shape = m.surface(&sheet);
+        // z = h of the sheet is Z + h a X = h of its image.
+        let of = |h: f64| {
+            let normal = [h * a[0], h * a[1], 1.0 + h * a[2]];
+            let square = dot(normal, normal);
+            plane(&m, normal.map(|x| x * h / square), normal)
+        };
+        let planes: Vec<Quadric> = heights.iter().map(|&h| of(h)).collect();
+        let stack = shape.sections(&planes, &options, 2, &mut |_| false).unwrap();
+        for (section, h) in stack.iter().zip(&heights) {
+            let text = || summary(section);
+            assert!(section.is_complete() && section.contacts.is_empty(), "{h} {m:?} {}", text());
+            assert_eq!(section.branches.len(), rows * rows, "{h} {m:?} {}", text());
+            assert_eq!(loops(section), rows * rows, "{h} {m:?} {}", text());
+            // Back through the map: a point of the sheet at height h.
+            check_points(section, &m, 3e-13, |x| x[2] / (1.0 - dot(a, x)) - h);
+            for p in section.branches.iter().flat_map(|b| &b.points) {
+                let off = sub(p.point, shape.surface().evaluate(p.at[0], p.at[1]));
+                assert!(norm(off) <= 1e-14 * m.scale, "{h} {m:?}");
+            }
+        }
+        let none = shape.sections(&[of(top + 1e-7)], &options, 1, &mut |_| false).unwrap();
+        assert_eq!(none, [Section::default()]);
+    }
+}
+
+#[test]
+fn stacks_of_planes_cut_rings_and_balls_in_known_circles() {
+    let (ring, ball) = (torus(), sphere([0.0, 1.0]));
+    let options = SectionOptions { chord: 1e-3, ..SectionOptions::default() };
+    for m in motions().into_iter().take(2) {
+        let places: Vec<f64> = (0..20).map(|k| -2.6 + 0.266 * f64::from(k)).collect();
+        let stack = |shape: &IndexedSurface, n: Vector| {
+            let planes: Vec<Quadric> =
+                places.iter().map(|&h| plane(&m, n.map(|x| x * h), n)).collect();
+            m.surface(shape).sections(&planes, &options, 2, &mut |_| false).unwrap()
+        };
+        // Along its axis: two circles; across: two ovals, then one.
+        let (up, across) = (stack(&ring, [0.0, 0.0, 1.0]), stack(&ring, [0.6, 0.8, 0.0]));
+        let turned = stack(&ball, [0.48, 0.6, 0.64]);
+        for (k, &h) in places.iter().enumerate() {
+            let wanted = [
+                if h.abs() < 0.5 { 2 } else { 0 },
+                if h.abs() < 1.5 { 2 } else { usize::from(h.abs() < 2.5) },
+                usize::from(h.abs() < 1.0),
+            ];
+            for (section, count) in [&up[k], &across[k], &turned[k]].into_iter().zip(wanted) {
+                let text = summary(section);
+                assert!(section.is_complete() && section.contacts.is_empty(), "{h} {m:?} {text}");
+                assert_eq!(
+                    (loops(section), section.branches.len()),
+                    (count, count),
+                    "{h} {m:?} {text}"
+                );
+            }
+            check_points(&up[k], &m, 3e-13, |x| {
+                ((x[0].hypot(x[1]) - 2.0).abs() - (0.25 - h * h).sqrt()).abs().max((x[2] - h).abs())
+            });
+            check_points(&turned[k], &m, 3e-13, |x| norm(x) - 1.0);
+        }
+    }
 }

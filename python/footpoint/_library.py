@@ -425,7 +425,7 @@ _STATUS = {
     "curve_hits_get": "pzp", "curve_hits_undecided_count": "pp", "curve_hits_undecided_get": "pzp",
     "intersect_surface_quadrics": "ppzpp", "sections_counts": "pzp", "sections_branch_get": "pzzp", "sections_branch_points": "pzzzp",
     "sections_point_get": "pzzp", "sections_region_get": "pzzp", "intersect_quadrics": "ppdpp", "caster_new": "ppp",
-    "caster_first": "pppzppp", "caster_all": "pppzppp", "ray_hits_count": "pp", "ray_hits_get": "pzp", "ray_hits_starts": "pzp",
+    "caster_first": "pppzppp", "caster_nearest": "pppzppp", "caster_all": "pppzppp", "ray_hits_count": "pp", "ray_hits_get": "pzp", "ray_hits_starts": "pzp",
     "ray_hits_flags": "pzp",
 }
 _OTHER = {

@@ -303,15 +303,17 @@ class Caster:
         o, d = (np.ascontiguousarray(x) for x in np.broadcast_arrays(np.atleast_2d(o), np.atleast_2d(d)))
         return o, d, None if reach is None else vector("reach", reach, 2)
 
-    def first(self, origins: ArrayLike, directions: ArrayLike, reach: ArrayLike | None = None, *, threads: int = 0,
+    def first(self, origins: ArrayLike, directions: ArrayLike, reach: ArrayLike | None = None, *, alone: bool = False, threads: int = 0,
               should_stop: Callable[[], object] | None = None, progress: Callable[[int, int], object] | None = None) -> np.ndarray:
         """The first hit of each ray, as records (`RAY_HIT`); count is the number of all hits of the ray.
 
         reach  least and greatest length along each ray that counts; None: from the origin on
+        alone  what lies behind the first hit is not looked at, and count is 1, or 0 for none: less work
         """
         o, d, ends = self._rays(origins, directions, reach)
         out, options = np.zeros(len(o), RAY_HIT), _options(0, 0, 0, threads, should_stop, progress)
-        _kept(lib.call("caster_first", self._pointer, address(o), address(d), len(o), address(ends), ctypes.addressof(options), address(out)))
+        name = "caster_nearest" if alone else "caster_first"
+        _kept(lib.call(name, self._pointer, address(o), address(d), len(o), address(ends), ctypes.addressof(options), address(out)))
         return out
 
     def all(self, origins: ArrayLike, directions: ArrayLike, reach: ArrayLike | None = None, *, threads: int = 0,

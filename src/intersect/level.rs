@@ -31,6 +31,11 @@ const STEEPEST: f64 = 8.0;
 /// Halvings after which steepness does not matter any more.
 const PATIENT: u32 = 24;
 
+/// A narrow box is kept as a lump where values are at most so many times those that count as none: there they may vanish twice. Where
+/// they are greater the box is at a small loop, and taken apart further, but not below this share of the least width.
+const MOST_FLAT: f64 = 16.0;
+const NARROWEST: f64 = 1.0 / 1024.0;
+
 /// Halvings after which a box is kept as a lump in any case.
 const DEEPEST: u32 = 80;
 
@@ -193,7 +198,10 @@ impl Field<'_> {
                 continue;
             }
             let image = self.image(&area);
-            let is_small = image[0].max(image[1]) < self.least || area.depth >= DEEPEST;
+            let (size, (low, high)) = (image[0].max(image[1]), extent(&area.values));
+            let is_flat = high.max(-low) <= MOST_FLAT * self.flat;
+            let is_small = (size < self.least && (is_flat || size < NARROWEST * self.least))
+                || area.depth >= DEEPEST;
             if is_small || *budget == 0 {
                 level.lumps.push(self.lump(area, is_small));
                 continue;

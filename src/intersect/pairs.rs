@@ -123,7 +123,7 @@ impl<'a> Body<'a> {
         cell.middle = self.enter(cell.middle, center);
         cell.edges = cell.edges.map(|v| scaled(v, self.ratio));
         cell.off = (cell.off + 2.0 * spread) * self.ratio + rounding;
-        cell.slope *= self.ratio;
+        cell.slopes = cell.slopes.map(|x| x * self.ratio);
         let half = Half { cell, piece: piece as u32, area };
         (half, aabb.grown(cell.off.min(1e-12 * self.ratio) + 4.0 * rounding))
     }
@@ -347,7 +347,7 @@ impl Pairs<'_> {
         let first = usize::from(self.first.is_curve());
         if let Some(y) = undo(&v[first..]) {
             let lengths = y.map(|row| norm(row) * (1.0 + 1e-6));
-            let slope = a.cell.slope + b.cell.slope;
+            let slope = a.cell.slope() + b.cell.slope();
             let worst = lengths.iter().fold(0.0f64, |m, &x| m.max(x));
             if worst * slope <= MOST_DEVIATION
                 && let Some(verdict) = self.regular(a, b, d0, &y, &lengths, first)
@@ -455,7 +455,7 @@ impl Pairs<'_> {
             }
             before = size;
         }
-        let slope = a.cell.slope + b.cell.slope;
+        let slope = a.cell.slope() + b.cell.slope();
         let worst = lengths.iter().fold(0.0f64, |m, &x| m.max(x));
         let deviation = worst * slope;
         let reach = worst * self.tolerance / (1.0 - deviation);

@@ -2,35 +2,29 @@
 //!
 //! ```text
 //!   once:  patches cut into cells that a line along their normal crosses at most once; a tree of boxes over them
-//!   ray:   boxes of the tree by slabs -> cells by their linear models: none, one, or open
-//!          one  -> two or three Newton steps on the patch; at the cell's rim Krawczyk's interval says in or out
-//!          open -> halve; what stays open (the ray touches, or runs in the surface) goes to `on_line`
+//!   ray:   boxes of the tree by slabs, eight at a time -> linear models of cells, eight at a time -> `cast`: one by one
+//!          what stays open (the ray touches, or runs in the surface) goes to `on_line`
 //! ```
 //!
 //! A crossing that is counted is shown to exist and to be the only one of its cell; a cell that is left out is shown to
 //! have none. References: Toth 1985; Martin et al., *Practical ray tracing of trimmed NURBS surfaces*, 2000.
 //! Limit: of two crossings nearer than the rounding one may be told.
 
-use super::cell::{Axis, Meeting, inverse};
-use super::cells::{Beam, LEAF, Node, Placed, Slabs, WIDTH, cells_of, halves, model};
+use super::cast::{Root, Search};
+use super::cell::Axis;
+use super::cells::{Beam, Candidate, Cells, Walk, cells_of};
 use crate::batch::{self, Memory, Record};
 use crate::bounds::{HALF_ULP, Vector, add, cross, dot, norm, scaled, sub};
 use crate::closest::{GREATEST_COORDINATE, QueryOptions};
 use crate::error::Error;
 use crate::index::{IndexedSurface, Poll, SurfaceIndex};
-use crate::preimage::Line;
+use crate::preimage::{DEFAULT_BUDGET, Line};
 use crate::set::Kind;
 use crate::simd::Level;
 use std::sync::Arc;
 
-/// Most halvings of a cell for one ray.
-const DEEPEST_OPEN: u32 = 40;
-
-/// Most open cells that one ray may halve before `on_line` takes over.
-const MOST_OPEN: usize = 256;
-
-/// How far outside its cell, in the patch's unit square, a crossing may come out and still be on the cell's rim.
-const RIM: f64 = 1e-11;
+/// Multiplications that the search with a tolerance may take for a ray, about: a tenth of a second. What is left open then is not proven.
+const MOST_BY_LINE: u64 = 1 << 27;
 
 /// What a hit is, and a ray: bits.
 pub mod ray_flag {
@@ -106,8 +100,7 @@ pub struct RayHits {
 #[derive(Debug)]
 pub struct Caster {
     shape: Arc<IndexedSurface>,
-    nodes: Vec<Node>,
-    cells: Vec<Placed>,
+    cells: Cells,
     level: Level,
 }
 
@@ -116,10 +109,10 @@ pub struct Caster {
 pub struct CastMemory {
     /// The hits of the last ray, in the order along it.
     pub hits: Vec<Hit>,
-    net: Vec<f64>,
-    open: Vec<Placed>,
-    /// Cells halved since the last ray began.
-    halved: usize,
+    candidates: Vec<Candidate>,
+    /// Candidates by their least length along the ray.
+    order: Vec<(f64, u32)>,
+    parts: Vec<[f64; 4]>,
     by_line: u64,
 }
 
@@ -138,8 +131,8 @@ impl Caster {
     pub fn new(shape: Arc<IndexedSurface>, poll: Poll) -> Result<Self, Error> {
         let index = shape.index(poll)?;
         let level = index.grid.level;
-        let (nodes, cells) = cells_of(index, poll)?;
-        Ok(Self { shape, nodes, cells, level })
+        let cells = cells_of(index, poll)?;
+        Ok(Self { shape, cells, level })
     }
 
     /// The surface.
@@ -149,40 +142,25 @@ impl Caster {
 
     /// Number of cells.
     pub fn cell_count(&self) -> usize {
-        self.cells.len()
+        self.cells.count()
     }
 
     /// Bytes held, without the surface.
     pub fn memory(&self) -> usize {
-        size_of::<Self>()
-            + self.nodes.capacity() * size_of::<Node>()
-            + self.cells.capacity() * size_of::<Placed>()
+        size_of::<Self>() + self.cells.memory()
     }
 
     /// All hits of a ray, to `memory.hits`, in the order along it. Returns flags of the ray: 0 when the list is complete.
     pub fn cast(&self, ray: &Ray, memory: &mut CastMemory) -> u32 {
-        memory.hits.clear();
-        let Some(beam) = self.beam(ray) else { return ray_flag::BAD_RAY | ray_flag::NOT_PROVEN };
-        let Ok(index) = self.shape.index(&mut || false) else { return ray_flag::NOT_PROVEN };
-        memory.halved = 0;
-        let mut stack = [0u32; 128];
-        let mut count = 1;
-        while count > 0 {
-            count -= 1;
-            let node = &self.nodes[stack[count] as usize];
-            let near = self.level.run(Slabs { node, beam: &beam });
-            for slot in 0..WIDTH {
-                let child = node.child[slot];
-                // The box of a child that is not there is turned inside out: slabs do not see it. The root is no child.
-                if child == 0 || near[slot] < 0.0 {
-                    continue;
-                }
-                if child & LEAF == 0 {
-                    stack[count] = child;
-                    count += 1;
-                } else if !self.try_cell(index, (child & !LEAF) as usize, &beam, memory) {
-                    return self.by_line(ray, memory);
-                }
+        let Some((index, beam)) = self.candidates(ray, memory) else {
+            return ray_flag::BAD_RAY | ray_flag::NOT_PROVEN;
+        };
+        let CastMemory { hits, candidates, parts, .. } = memory;
+        let search = Search { index, cells: &self.cells, beam: &beam };
+        let mut take = |root: Root| hits.extend(self.hit(index, &beam, root));
+        for candidate in candidates {
+            if !search.cell(candidate, parts, &mut take) {
+                return self.by_line(ray, memory);
             }
         }
         self.finish(memory);
@@ -198,6 +176,50 @@ impl Caster {
         }
     }
 
+    /// The first hit of a ray alone: cells behind it are not looked at. Its `count` is 1, or 0 for none.
+    pub fn nearest(&self, ray: &Ray, memory: &mut CastMemory) -> Hit {
+        let Some((index, beam)) = self.candidates(ray, memory) else {
+            return Hit::none(ray_flag::BAD_RAY | ray_flag::NOT_PROVEN);
+        };
+        let CastMemory { candidates, order, parts, .. } = memory;
+        order.clear();
+        let least = |c: &Candidate| self.cells.least_along(c.cell, &beam.axis) - beam.slack;
+        order.extend(candidates.iter().enumerate().map(|(k, c)| (least(c), k as u32)));
+        order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let search = Search { index, cells: &self.cells, beam: &beam };
+        let mut best: Option<Root> = None;
+        let mut take = |root: Root| {
+            let is_nearer = best.is_none_or(|other| root.along < other.along);
+            if is_nearer && root.along >= beam.reach[0] && root.along <= beam.reach[1] {
+                best = Some(root);
+            }
+            best.map_or(f64::INFINITY, |root| root.along)
+        };
+        let mut reached = f64::INFINITY;
+        for &(least, k) in &*order {
+            if least > reached {
+                break;
+            }
+            let mut tell = |root: Root| reached = take(root);
+            if !search.cell(&candidates[k as usize], parts, &mut tell) {
+                let flags = self.by_line(ray, memory);
+                let hit = memory.hits.first().copied();
+                return hit.map_or(Hit::none(flags), |hit| Hit { flags: hit.flags | flags, ..hit });
+            }
+        }
+        best.and_then(|root| self.hit(index, &beam, root)).unwrap_or(Hit::none(0))
+    }
+
+    /// The cells that a ray may meet, to `memory`.
+    fn candidates(&self, ray: &Ray, memory: &mut CastMemory) -> Option<(&SurfaceIndex, Beam)> {
+        memory.hits.clear();
+        memory.candidates.clear();
+        let index = self.shape.index(&mut || false).ok()?;
+        let beam = beam(index, ray)?;
+        self.level.run(Walk { cells: &self.cells, beam: &beam, out: &mut memory.candidates });
+        Some((index, beam))
+    }
+
     /// The first hits of many rays, with the number of all, over `threads` threads (0: all cores). The same bits for any number
     /// of threads; nothing is allocated for a ray.
     ///
@@ -211,6 +233,21 @@ impl Caster {
         poll: batch::Poll,
     ) -> Result<(), Error> {
         let work = |k: usize, memory: &mut CastMemory| self.first(&rays(k), memory);
+        batch::run(out, threads, None, &work, poll)
+    }
+
+    /// The first hits alone of many rays: as [`Self::first_hits`] without what lies behind.
+    ///
+    /// # Errors
+    /// As [`batch::run`].
+    pub fn nearest_hits(
+        &self,
+        rays: &(dyn Fn(usize) -> Ray + Sync),
+        out: &mut [Hit],
+        threads: usize,
+        poll: batch::Poll,
+    ) -> Result<(), Error> {
+        let work = |k: usize, memory: &mut CastMemory| self.nearest(&rays(k), memory);
         batch::run(out, threads, None, &work, poll)
     }
 
@@ -256,184 +293,30 @@ impl Caster {
         Ok(all)
     }
 
-    fn beam(&self, ray: &Ray) -> Option<Beam> {
-        let bad = |v: &Vector| v.iter().any(|x| !x.is_finite() || x.abs() > GREATEST_COORDINATE);
-        let length = norm(ray.direction);
-        let wrong = ray.reach[0].is_nan() || ray.reach[1].is_nan();
-        if bad(&ray.origin) || bad(&ray.direction) || length < 1e-100 || wrong {
+    /// The hit of a crossing, when the ray reaches it.
+    fn hit(&self, index: &SurfaceIndex, beam: &Beam, root: Root) -> Option<Hit> {
+        if root.along < beam.reach[0] || root.along > beam.reach[1] {
             return None;
         }
-        let index = self.shape.index(&mut || false).ok()?;
-        let once = scaled(ray.direction, 1.0 / length);
-        let direction = scaled(once, 1.0 / norm(once));
-        let from = index.frame.enter(ray.origin);
-        let along = -dot(from, direction);
-        // The point of the line nearest to the middle of the shape.
-        let origin = add(from, scaled(direction, along));
-        let scale = index.frame.scale;
-        let start = along / scale;
-        let slack = 16.0 * HALF_ULP * (4.0 + norm(from) + along.abs());
-        let inverse =
-            direction.map(|d| 1.0 / if d.abs() < 1e-30 { 1e-30f64.copysign(d) } else { d });
-        let reach = ray.reach.map(|t| (t - start) * scale);
-        let reach = [reach[0] - slack, reach[1] + slack];
-        Some(Beam { axis: Axis::new(origin, direction), inverse, start, reach, slack })
-    }
-
-    /// Adds what a ray has in a cell; false when it stays open.
-    #[inline]
-    fn try_cell(
-        &self,
-        index: &SurfaceIndex,
-        number: usize,
-        beam: &Beam,
-        memory: &mut CastMemory,
-    ) -> bool {
-        let placed = &self.cells[number];
-        match self.settle(index, placed, beam, memory) {
-            Some(()) => true,
-            None => self.open(index, *placed, beam, memory),
-        }
-    }
-
-    /// Takes a crossing, or shows that there is none; `None` when the cell must be halved.
-    #[inline]
-    fn settle(
-        &self,
-        index: &SurfaceIndex,
-        placed: &Placed,
-        beam: &Beam,
-        memory: &mut CastMemory,
-    ) -> Option<()> {
-        match placed.cell.meet(&beam.axis, beam.slack) {
-            Meeting::None => Some(()),
-            Meeting::Open => None,
-            Meeting::Once { at, deviation, is_inside } => {
-                let patch = placed.patch as usize;
-                let base = sub(beam.axis.origin, index.patches[patch].center);
-                let [s0, s1, t0, t1] = placed.area;
-                let half = [0.5 * (s1 - s0), 0.5 * (t1 - t0)];
-                let middle = [0.5 * (s0 + s1), 0.5 * (t0 + t1)];
-                // Most of those that come out beside the cell are shown to with one value.
-                if !is_inside && at.iter().any(|x| x.abs() > 1.0) {
-                    let edge = at.map(|x| x.clamp(-1.0, 1.0));
-                    if self.is_outside(index, placed, base, beam, edge, deviation) {
-                        return Some(());
-                    }
-                }
-                let (inner, along, slant) = newton(
-                    index,
-                    patch,
-                    base,
-                    &beam.axis,
-                    [0, 1].map(|k| middle[k] + half[k] * at[k]),
-                    half,
-                )?;
-                let x = [0, 1].map(|k| (inner[k] - middle[k]) / half[k]);
-                let rim = [0, 1].map(|k| 1.0 + RIM / half[k]);
-                let is_on = (0..2).all(|k| x[k].abs() <= rim[k]);
-                if !is_on && !is_inside {
-                    let edge = x.map(|x| x.clamp(-1.0, 1.0));
-                    return self
-                        .is_outside(index, placed, base, beam, edge, deviation)
-                        .then_some(());
-                }
-                if !is_on {
-                    return None;
-                }
-                self.take(index, patch, inner, along, slant, beam, memory);
-                Some(())
-            }
-        }
-    }
-
-    /// Whether no zero is in the cell, seen from a place on its rim: every zero z of the cell has
-    /// `|z - y + Y F(y)| <= deviation |z - y|`.
-    fn is_outside(
-        &self,
-        index: &SurfaceIndex,
-        placed: &Placed,
-        base: Vector,
-        beam: &Beam,
-        edge: [f64; 2],
-        deviation: f64,
-    ) -> bool {
-        let Some((y, lengths)) = inverse(&beam.axis, &placed.cell.edges) else { return false };
-        let [s0, s1, t0, t1] = placed.area;
-        let at = [
-            0.5 * (s0 + s1) + 0.5 * (s1 - s0) * edge[0],
-            0.5 * (t0 + t1) + 0.5 * (t1 - t0) * edge[1],
-        ];
-        let d = index.net(placed.patch as usize).vector(at[0], at[1], base);
-        let f = beam.axis.across.map(|n| dot(n, d));
-        let r = y.map(|row| row[0] * f[0] + row[1] * f[1]);
-        let most = r[0].abs().max(r[1].abs());
-        let spread = deviation * most / (1.0 - deviation) + lengths[0].max(lengths[1]) * beam.slack;
-        (0..2).any(|k| {
-            let z = edge[k] - r[k];
-            z - spread > 1.0 || z + spread < -1.0
-        })
-    }
-
-    fn take(
-        &self,
-        index: &SurfaceIndex,
-        patch: usize,
-        at: [f64; 2],
-        along: f64,
-        slant: f64,
-        beam: &Beam,
-        memory: &mut CastMemory,
-    ) {
-        if along < beam.reach[0] || along > beam.reach[1] {
-            return;
-        }
-        let snapped = at.map(|x| {
-            if x <= RIM {
+        let snapped = [0, 1].map(|k| {
+            let (x, rim) = (root.at[k], root.rim[k]);
+            if x <= rim {
                 0.0
-            } else if x >= 1.0 - RIM {
+            } else if x >= 1.0 - rim {
                 1.0
             } else {
                 x
             }
         });
-        let of = &index.patches[patch];
+        let of = &index.patches[root.patch];
         let (u, v) = (of.u.global(snapped[0]), of.v.global(snapped[1]));
         let surface = self.shape.surface();
         let [u0, u1, v0, v1] = surface.domain();
         let edge = if u == u0 || u == u1 || v == v0 || v == v1 { ray_flag::EDGE } else { 0 };
-        let touching = if slant < 1e-9 { ray_flag::TANGENTIAL } else { 0 };
-        let t = beam.start + along / index.frame.scale;
+        let touching = if root.slant < 1e-9 { ray_flag::TANGENTIAL } else { 0 };
+        let t = beam.start + root.along / index.frame.scale;
         let point = surface.evaluate(u, v);
-        memory.hits.push(Hit { t, u, v, point, flags: edge | touching, count: 1 });
-    }
-
-    /// Halves a cell until it is decided.
-    fn open(
-        &self,
-        index: &SurfaceIndex,
-        placed: Placed,
-        beam: &Beam,
-        memory: &mut CastMemory,
-    ) -> bool {
-        let first = memory.open.len();
-        memory.open.push(placed);
-        while memory.open.len() > first {
-            let Some(cell) = memory.open.pop() else { break };
-            memory.halved += 1;
-            if cell.depth >= DEEPEST_OPEN || memory.halved > MOST_OPEN {
-                memory.open.clear();
-                return false;
-            }
-            for area in halves(&cell.cell, cell.area) {
-                let (model, _) = model(index, cell.patch as usize, area, &mut memory.net);
-                let part = Placed { cell: model, area, depth: cell.depth + 1, ..cell };
-                if self.settle(index, &part, beam, memory).is_none() {
-                    memory.open.push(part);
-                }
-            }
-        }
-        true
+        Some(Hit { t, u, v, point, flags: edge | touching, count: 1 })
     }
 
     /// Orders the hits; what neighbouring cells saw both is one.
@@ -480,7 +363,11 @@ impl Caster {
         let Ok(index) = self.shape.index(&mut || false) else { return ray_flag::NOT_PROVEN };
         let line = Line { origin: ray.origin, direction: ray.direction, reach: ray.reach };
         let tolerance = 1e-11 * index.frame.diagonal;
-        let set = self.shape.on_line(&line, tolerance, &QueryOptions::default(), &mut || false);
+        // A box takes products of nets.
+        let budget =
+            (MOST_BY_LINE / (index.degree.count() as u64).pow(2)).clamp(64, DEFAULT_BUDGET);
+        let options = QueryOptions { budget, ..QueryOptions::default() };
+        let set = self.shape.on_line(&line, tolerance, &options, &mut || false);
         let Ok(set) = set else { return ray_flag::NOT_PROVEN };
         let surface = self.shape.surface();
         let unit = scaled(ray.direction, 1.0 / norm(ray.direction));
@@ -508,35 +395,25 @@ impl Caster {
     }
 }
 
-/// The zero near a start in the patch's unit square, the length along the line there, and the sine of the angle.
-#[inline]
-fn newton(
-    index: &SurfaceIndex,
-    patch: usize,
-    base: Vector,
-    axis: &Axis,
-    start: [f64; 2],
-    half: [f64; 2],
-) -> Option<([f64; 2], f64, f64)> {
-    let net = index.net(patch);
-    let mut x = start;
-    let enough = [1e-7 * half[0], 1e-7 * half[1]];
-    for _ in 0..8 {
-        let jet = net.jet(x[0], x[1], base);
-        let f = axis.across.map(|n| dot(n, jet.d));
-        let j = axis.across.map(|n| [dot(n, jet.s), dot(n, jet.t)]);
-        let det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
-        let step =
-            [(j[0][1] * f[1] - j[1][1] * f[0]) / det, (j[1][0] * f[0] - j[0][0] * f[1]) / det];
-        if step.iter().zip(half).any(|(d, h)| d.is_nan() || d.abs() > 8.0 * h) {
-            return None;
-        }
-        x = [x[0] + step[0], x[1] + step[1]];
-        if (0..2).all(|k| step[k].abs() <= enough[k]) {
-            let d = [0, 1, 2].map(|c| jet.d[c] + step[0] * jet.s[c] + step[1] * jet.t[c]);
-            let area = norm(cross(jet.s, jet.t));
-            return Some((x, dot(d, axis.direction), det.abs() / area));
-        }
+/// A ray in the coordinates of the index; `None` for a bad one.
+fn beam(index: &SurfaceIndex, ray: &Ray) -> Option<Beam> {
+    let bad = |v: &Vector| v.iter().any(|x| !x.is_finite() || x.abs() > GREATEST_COORDINATE);
+    let length = norm(ray.direction);
+    let wrong = ray.reach[0].is_nan() || ray.reach[1].is_nan();
+    if bad(&ray.origin) || bad(&ray.direction) || length < 1e-100 || wrong {
+        return None;
     }
-    None
+    let once = scaled(ray.direction, 1.0 / length);
+    let direction = scaled(once, 1.0 / norm(once));
+    let from = index.frame.enter(ray.origin);
+    let along = -dot(from, direction);
+    // The point of the line nearest to the middle of the shape.
+    let origin = add(from, scaled(direction, along));
+    let scale = index.frame.scale;
+    let start = along / scale;
+    let slack = 16.0 * HALF_ULP * (4.0 + norm(from) + along.abs());
+    let inverse = direction.map(|d| 1.0 / if d.abs() < 1e-30 { 1e-30f64.copysign(d) } else { d });
+    let reach = ray.reach.map(|t| (t - start) * scale);
+    let reach = [reach[0] - slack, reach[1] + slack];
+    Some(Beam { axis: Axis::new(origin, direction), inverse, start, reach, slack })
 }

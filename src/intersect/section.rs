@@ -374,6 +374,11 @@ impl<'a> Work<'a> {
                 section.contacts.push(Contact { at: point, distance });
             }
             (0, None) => section.undecided.push(area),
+            // Three arms and more meet where the polynomial vanishes: elsewhere they are parts of a loop that is too small.
+            (3.., None) if value > flat => {
+                section.undecided.push(area);
+                arms.iter().for_each(|(node, ..)| undecided[*node] = true);
+            }
             (2, None) if arms[0].2 == arms[1].2 => {
                 straight([arms[0].0, arms[1].0], [arms[0].1, arms[1].1], arms[0].2, level);
             }

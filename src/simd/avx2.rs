@@ -116,6 +116,19 @@ impl Lanes<4> for Four {
         // SAFETY: vectors exist only where AVX2 does.
         Self(unsafe { _mm256_blendv_pd(other.0, self.0, _mm256_cmp_pd::<_CMP_LT_OQ>(a.0, b.0)) })
     }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        // SAFETY: vectors exist only where AVX2 does.
+        Self(unsafe { _mm256_sqrt_pd(self.0) })
+    }
+
+    #[inline(always)]
+    fn less(self, other: Self) -> u32 {
+        // SAFETY: vectors exist only where AVX2 does.
+        let bits = unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(self.0, other.0)) };
+        bits as u32
+    }
 }
 
 #[inline(always)]
@@ -167,5 +180,17 @@ impl Lanes<8> for Eight {
     fn where_less(self, a: Self, b: Self, other: Self) -> Self {
         let ([x, y], [z, w]) = (self.0, other.0);
         Self([x.where_less(a.0[0], b.0[0], z), y.where_less(a.0[1], b.0[1], w)])
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        let [a, b] = self.0;
+        Self([a.sqrt(), b.sqrt()])
+    }
+
+    #[inline(always)]
+    fn less(self, other: Self) -> u32 {
+        let ([a, b], [c, d]) = (self.0, other.0);
+        a.less(c) | b.less(d) << 4
     }
 }

@@ -110,4 +110,17 @@ impl Lanes<8> for Eight {
             _mm512_mask_blend_pd(less, other.0, self.0)
         })
     }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        // SAFETY: vectors exist only where AVX-512 does.
+        Self(unsafe { _mm512_sqrt_pd(self.0) })
+    }
+
+    #[inline(always)]
+    fn less(self, other: Self) -> u32 {
+        // SAFETY: vectors exist only where AVX-512 does.
+        let bits = unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0) };
+        u32::from(bits)
+    }
 }

@@ -82,4 +82,21 @@ impl<const N: usize> Lanes<N> for Array<N> {
         }
         self
     }
+
+    #[inline(always)]
+    fn sqrt(mut self) -> Self {
+        for k in 0..N {
+            self.0[k] = self.0[k].sqrt();
+        }
+        self
+    }
+
+    #[inline(always)]
+    fn less(self, other: Self) -> u32 {
+        let mut bits = 0;
+        for k in 0..N {
+            bits |= u32::from(self.0[k] < other.0[k]) << k;
+        }
+        bits
+    }
 }

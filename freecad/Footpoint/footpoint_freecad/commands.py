@@ -110,8 +110,13 @@ class _Command:
         if target is None:
             say(translate(CONTEXT, self.wanted))
             return
+        self.guarded(lambda: self.run(target, point))
+
+    @staticmethod
+    def guarded(work):
+        """Errors are told, and what was begun is undone."""
         try:
-            self.run(target, point)
+            work()
         except (ImportError, ValueError, TypeError, NotImplementedError, RuntimeError, OSError) as error:
             if FreeCAD.ActiveDocument is not None:
                 FreeCAD.ActiveDocument.abortTransaction()
@@ -236,6 +241,28 @@ class Inspect(_Command):
         shape = target[0].Shape.getElement(target[1]) if target[1] else target[0].Shape
         if shape.Faces:
             Reflections.show_for(shape, found.Label)
+
+
+class Intersect(_Command):
+    """Curves of two faces."""
+
+    icon = "Footpoint_Intersect.svg"
+    menu = QT_TRANSLATE_NOOP("Footpoint", "Intersect faces")
+    tip = QT_TRANSLATE_NOOP("Footpoint", "All curves and points that two selected faces have in common, with a proof that none is missing")
+    wanted = QT_TRANSLATE_NOOP("Footpoint", "Select two faces.")
+
+    def Activated(self):
+        faces = [(one.Object, name.split(".")[-1]) for one in Gui.Selection.getSelectionEx("", 0) for name in one.SubElementNames]
+        faces = [(obj, name) for obj, name in faces if name.startswith("Face") and hasattr(obj, "Shape")]
+        if len(faces) != 2:
+            say(translate(CONTEXT, self.wanted))
+            return
+        self.guarded(lambda: self.run(*faces))
+
+    def run(self, first, second):
+        found = self.result(objects.IntersectResult, "Intersection", first, Second=(second[0], [second[1]]))
+        for line in found.Report:
+            FreeCAD.Console.PrintMessage(f"Footpoint: {line}\n")
 
 
 def ask_deviation(size):
@@ -424,7 +451,8 @@ class Legend(QtGui.QDockWidget):
 
 
 COMMANDS = {"Footpoint_Invert": Invert, "Footpoint_Closest": Closest, "Footpoint_Deviation": Deviation, "Footpoint_Check": Check,
-            "Footpoint_Weights": Weights, "Footpoint_FairCurve": FairCurve, "Footpoint_FairSurface": FairSurface, "Footpoint_Inspect": Inspect}
+            "Footpoint_Weights": Weights, "Footpoint_FairCurve": FairCurve, "Footpoint_FairSurface": FairSurface, "Footpoint_Inspect": Inspect,
+            "Footpoint_Intersect": Intersect}
 
 
 def register():

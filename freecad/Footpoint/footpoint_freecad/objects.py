@@ -3,7 +3,7 @@
 import FreeCAD
 import Part
 
-from . import fairing, measure, weights
+from . import fairing, intersections, measure, weights
 
 GROUP = "Footpoint"
 
@@ -156,6 +156,25 @@ class InspectResult(_Result):
     def execute(self, obj):
         obj.Report, obj.Shape = fairing.inspected(self.shape(obj))
         obj.Label = f"Inspect: {obj.Report[0]}"
+
+
+class IntersectResult(_Result):
+    """The curves and points that two faces have in common."""
+
+    def properties(self, obj):
+        obj.addProperty("App::PropertyLinkSub", "Second", "Footpoint", "The other face")
+        obj.addProperty("App::PropertyFloat", "Tolerance", "Footpoint", "How far a curve may be from the intersection, in mm; 0: 1e-6 of the size")
+        for kind, name, text in (("Integer", "Curves", "Number of curves"), ("Integer", "Points", "Number of single points"),
+                                 ("Float", "Error", "Greatest distance of a curve from the intersection, as measured, in mm"),
+                                 ("Bool", "Proven", "Whether no branch can be missing"), ("StringList", "Report", "What was found")):
+            _add(obj, kind, name, text)
+
+    def execute(self, obj):
+        source, subs = obj.Second
+        found = intersections.of_faces(self.shape(obj), source.Shape.getElement(subs[0]), obj.Tolerance)
+        obj.Curves, obj.Points, obj.Error, obj.Proven, obj.Report = found.curves, found.points, found.error, found.proven, found.text
+        obj.Shape = Part.makeCompound(found.shapes)
+        obj.Label = f"Intersection: {found.text[0]}"
 
 
 def group(document):

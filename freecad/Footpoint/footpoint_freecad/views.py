@@ -3,7 +3,8 @@
 from .settings import resource
 
 ICONS = {"InvertResult": "Footpoint_Invert.svg", "ClosestResult": "Footpoint_Closest.svg", "SeamsResult": "Footpoint_Check.svg",
-         "WeightsResult": "Footpoint_Weights.svg"}
+         "WeightsResult": "Footpoint_Weights.svg",
+         "IntersectResult": "Footpoint_Intersect.svg"}
 
 
 class ViewProvider:

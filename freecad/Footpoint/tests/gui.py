@@ -188,6 +188,34 @@ def steps():
     Gui.SendMsgToActiveView("ViewFit")
     shot("freecad_results.png")
     yield
+    ring = document.addObject("Part::Feature", "Ring")
+    ring.Shape = Part.makeTorus(14, 5, V(62, 30, 64), V(0.5, 0.2, 1))
+    document.recompute()
+    horn = max(range(len(source.Shape.Faces)), key=lambda k: source.Shape.Faces[k].BoundBox.ZMax + source.Shape.Faces[k].BoundBox.ZLength)
+    Gui.Selection.clearSelection()
+    told = []
+    plain, commands.say = commands.say, told.append
+    Gui.Selection.addSelection(document.Name, "Ring", "Face1")
+    press("Footpoint_Intersect")
+    commands.say = plain
+    check(f"intersection: one face is not enough: {told}", told == ["Select two faces."])
+    Gui.Selection.addSelection(document.Name, "Bracket", f"Face{horn + 1}")
+    press("Footpoint_Intersect")
+    found = document.getObject("Intersection")
+    expected = ring.Shape.Faces[0].section(source.Shape.Faces[horn]).Length
+    check(f"intersection: {found.Label}; length {found.Shape.Length:.6f}, FreeCAD's section {expected:.6f}",
+          found.Proven and found.Curves > 0 and abs(found.Shape.Length - expected) < 1e-3 * expected)
+    check("intersection: in the tree", found in document.getObject("Footpoint").Group)
+    source.ViewObject.Transparency = ring.ViewObject.Transparency = 60
+    for name in ("Ball", "Invert", "Seams", "Closest"):
+        document.getObject(name).ViewObject.Visibility = False
+    Gui.Selection.clearSelection()
+    Gui.SendMsgToActiveView("ViewFit")
+    shot("freecad_intersection.png")
+    source.ViewObject.Transparency = 0
+    for name in ("Ring", "Intersection"):
+        document.getObject(name).ViewObject.Visibility = False
+    yield
     for name in ("Bracket", "Ball", "Invert", "Seams", "Closest"):
         document.getObject(name).ViewObject.Visibility = False
     drawn = document.addObject("Part::Feature", "Polygon")

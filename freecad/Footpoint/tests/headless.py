@@ -15,7 +15,7 @@ import numpy as np
 import Part
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-from footpoint_freecad import fairing, measure, objects, parameters, toolkit, weights  # noqa: E402
+from footpoint_freecad import fairing, intersections, measure, objects, parameters, toolkit, weights  # noqa: E402
 
 V = FreeCAD.Vector
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -404,6 +404,45 @@ def test_guide():
     assert len(programs) == 2
     for program in programs:
         exec(compile(program, "guide", "exec"), {})
+
+
+def test_intersections_beside_section():
+    """Curves of two faces: as long as FreeCAD's section of the same faces, and on both."""
+    ball, pole = Part.makeSphere(10), Part.makeCylinder(4, 40, V(3, 0, -20))
+    torus, loft_ = Part.makeTorus(12, 4), loft()
+    box = Part.makeBox(30, 30, 10, V(-9, -8, 3))
+    pairs = {"sphere, cylinder": (ball.Faces[0], pole.Faces[0], 2), "torus, plane": (torus.Faces[0], box.Faces[4], None),
+             "torus, cylinder": (torus.Faces[0], Part.makeCylinder(3, 40, V(10, 2, -20)).Faces[0], None),
+             "loft, plane": (loft_.Faces[0], Part.makeBox(30, 30, 10, V(-2, -8, 3)).Faces[0], None), "trimmed, trimmed": (box.cut(pole).Faces[-1], ball.Faces[0], None)}
+    for name, (first, second, loops) in pairs.items():
+        first, second = (face.transformed(PLACE.toMatrix()) for face in (first, second))
+        found = intersections.of_faces(first, second)
+        ours = sum(shape.Length for shape in found.shapes)
+        theirs = first.section(second).Length
+        print(f"{name:18} {found.curves} curves, {found.loops} loops, length {ours:.6f}, FreeCAD's {theirs:.6f}")
+        assert abs(ours - theirs) <= 1e-4 * max(theirs, 1), name
+        assert found.proven and found.curves and loops in (None, found.loops), name
+        for shape in found.shapes:
+            for t in np.linspace(*shape.ParameterRange, 23):
+                point = Part.Vertex(shape.valueAt(float(t)))
+                assert max(face.distToShape(point)[0] for face in (first, second)) < 1e-4, name
+    touching = intersections.of_faces(ball.Faces[0], Part.makeSphere(5, V(15, 0, 0)).Faces[0])
+    assert touching.points == 1 and touching.curves == 0 and not touching.proven
+    apart = intersections.of_faces(ball.Faces[0], Part.makeSphere(5, V(16, 0, 0)).Faces[0])
+    assert apart.proven and not apart.shapes
+    # Within the wires only: the other half of the sphere's section is cut away.
+    half = ball.cut(Part.makeBox(30, 30, 30, V(-15, -15, 0)))
+    whole, cut = (intersections.of_faces(shape.Faces[0], pole.Faces[0]) for shape in (ball, half))
+    assert whole.loops == 2 and cut.loops == 1 and cut.curves < whole.curves
+    document = FreeCAD.newDocument("Intersections")
+    one, two = document.addObject("Part::Feature", "One"), document.addObject("Part::Feature", "Two")
+    one.Shape, two.Shape = ball, pole
+    made = objects.make(objects.IntersectResult, "Intersection", one, "Face1", Second=(two, ["Face1"]))
+    assert made.Curves == whole.curves and made.Proven and len(made.Shape.Edges) == whole.curves and "nothing is missing" in made.Report[0]
+    two.Placement.Base = V(30, 0, 0)
+    document.recompute()
+    assert made.Curves == 0 and made.Proven
+    FreeCAD.closeDocument("Intersections")
 
 
 failed = passed = 0
