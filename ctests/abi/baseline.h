@@ -707,9 +707,10 @@ typedef struct fpt_fair_options {
     double length[2];
     double region[4];
     uint32_t steps;
-    uint32_t reserved;
+    uint32_t calm;
     int (*should_stop)(void *user);
     void *user;
+    double slope;
 } fpt_fair_options;
 typedef struct fpt_fair_summary {
     double energy_before;
@@ -2243,6 +2244,14 @@ fpt_status fpt_caster_first(const struct fpt_caster *caster,
                             const double *reach,
                             const struct fpt_hit_options *options,
                             struct fpt_ray_hit *out);
+FPT_MUST_USE
+fpt_status fpt_caster_nearest(const struct fpt_caster *caster,
+                              const double *origins,
+                              const double *directions,
+                              size_t count,
+                              const double *reach,
+                              const struct fpt_hit_options *options,
+                              struct fpt_ray_hit *out);
 FPT_MUST_USE
 fpt_status fpt_caster_all(const struct fpt_caster *caster,
                           const double *origins,
