@@ -108,6 +108,9 @@ fn asked(random: &mut Random, near: Vector) -> Vector {
 const PLACE: u32 = flag::EDGE | flag::CORNER | flag::SEAM | flag::COLLAPSED | flag::CREASE;
 const TIES: u32 = flag::TIE | flag::CONTINUUM;
 
+/// Most evaluations that a closed form takes; more of them are those of a search.
+const STEPS: u32 = 6;
+
 /// What two answers must have in common, when one is that of the general search.
 fn agree(
     ours: &FootPoint,
@@ -119,20 +122,31 @@ fn agree(
     assert!(ours.flags & flag::NOT_PROVEN == 0, "{} {ours:?} {general:?}", context());
     assert!(ours.lower_bound <= general.distance + floor, "{} {ours:?} {general:?}", context());
     assert!(general.lower_bound <= ours.distance + floor, "{} {ours:?} {general:?}", context());
-    // The general search may end up to its gap above the least distance.
-    let over = if ours.flags & TIES == 0 { 4.0 * floor } else { gap };
+    // A search may end up to its gap above the least distance; closed forms do not, but that what is beside a tip within the
+    // accuracy is the tip.
+    let is_closed = ours.iterations <= STEPS;
+    let is_exact = is_closed && ours.flags & (TIES | flag::COLLAPSED) == 0;
+    let over = if is_exact { 4.0 * floor } else { gap };
     assert!(ours.distance <= general.distance + over, "{} {ours:?} {general:?}", context());
     assert!(general.distance <= ours.distance + gap, "{} {ours:?} {general:?}", context());
-    // The general search may leave open what closed forms decide, never the other way round.
+    // The general search may leave open what closed forms decide, never the other way round. Where these do not decide, the
+    // search of an elementary shape knows less than that of others, of which feet are known to be alone.
     let more = ours.flags & flag::TIE & !general.flags;
-    assert!(more == 0, "{} {ours:?} {general:?}", context());
-    if apart <= 4.0 * floor && ours.flags & TIES == 0 && ours.flags & PLACE != general.flags & PLACE
-    {
+    // In a continuum but for the accuracy a search may find the one least place.
+    let is_level = ours.flags & flag::CONTINUUM != 0;
+    assert!(more == 0 || !is_closed || is_level, "{} {ours:?} {general:?}", context());
+    let other_place = ours.flags & PLACE != general.flags & PLACE;
+    if apart <= 4.0 * floor && ours.flags & TIES == 0 && is_closed && other_place {
         // A foot within rounding of a border may be on it or not.
         let moved = (ours.u - general.u).abs() + (ours.v - general.v).abs();
         let collapsed = (ours.flags | general.flags) & flag::COLLAPSED != 0;
+        // Beside a tip parameters that differ by much give one point.
+        let beside_tip = apart < 1e-6 * moved;
         assert!(
-            moved < 1e-11 || collapsed || (ours.flags | general.flags) & flag::SEAM != 0,
+            moved < 1e-11
+                || beside_tip
+                || collapsed
+                || (ours.flags | general.flags) & flag::SEAM != 0,
             "{} {ours:?} {general:?}",
             context()
         );
@@ -324,7 +338,7 @@ fn hints_restrictions_and_the_accuracy_leave_elementary_answers_right() {
             let part = ours.closest(query, None, &options, &mut workspace, None);
             let truth = general.closest(query, None, &options, &mut workspace, None);
             let floor = 1e-12 * (3.0 + truth.distance);
-            let gap = if truth.flags & TIES != 0 { 1e-9 } else { floor };
+            let gap = if (truth.flags | part.flags) & TIES != 0 { 1e-9 } else { floor };
             let context = || format!("{round} {name} {domain:?} {query:?} {part:?} {truth:?}");
             assert!((part.distance - truth.distance).abs() <= gap, "{}", context());
             assert!(part.lower_bound <= truth.distance + floor, "{}", context());

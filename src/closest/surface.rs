@@ -177,7 +177,7 @@ impl IndexedSurface {
         }
         if let Some(at) = hint {
             search.start_at(at, &mut proof);
-        } else if !traced {
+        } else if !traced && within.is_none() {
             search.start_near(&mut proof);
         }
         search.walk(workspace, &mut proof);
@@ -313,12 +313,12 @@ impl SurfaceSearch<'_> {
 
     /// Begins at a place that is likely near, where a foot may settle the search.
     fn start_near(&self, proof: &mut Proof) {
-        let Some(reach) = self.reach else { return };
         if self.options.method != Method::Auto {
             return;
         }
         let level = self.index.grid.level;
-        let Some((k, start)) = reach.start(self.query, level).or_else(|| self.guess()) else {
+        let near = self.reach.and_then(|reach| reach.start(self.query, level));
+        let Some((k, start)) = near.or_else(|| self.guess()) else {
             return;
         };
         let Some(range) = self.local_range(k) else { return };
