@@ -20,12 +20,14 @@ mod patches;
 mod piece;
 mod reach;
 mod recognise;
+mod segment;
 mod segments;
 mod shape;
 
 pub use piece::{Frame, MAX_TENSOR_BYTES, Span, position_error, position_steps, product_steps};
 pub use reach::{CurveReach, Reach};
-pub use segments::{CurveIndex, Segment};
+pub use segment::Segment;
+pub use segments::CurveIndex;
 pub use shape::{IndexedCurve, IndexedSurface, Poll};
 
 pub use patch::{Patch, side};

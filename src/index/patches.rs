@@ -5,7 +5,7 @@ mod build;
 
 use super::patch::Patch;
 use super::piece::{Frame, tensor_len};
-use super::reach::{Cell, Raster, Reach};
+use super::reach::{Cell, Net, Raster, Reach};
 use crate::analytic::Analytic;
 use crate::bezier::Bidegree;
 use crate::bounds::{Vector, sub};
@@ -100,7 +100,12 @@ impl SurfaceIndex {
     pub fn measure_reach(&mut self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error> {
         let (cells, raster) = std::mem::take(&mut self.cells);
         if self.analytic.is_none() {
-            self.reach = Some(Reach::new(&cells, self, raster, poll)?);
+            let poles = |k: usize| self.net(k).poles;
+            let (patches, columns) = (&self.patches[..], self.columns);
+            let (degree, rational) = (self.degree, self.rational);
+            let poles = if patches.len() <= HUGE { Some(&poles as _) } else { None };
+            let net = Net { patches, columns, degree, rational, poles };
+            self.reach = Some(Reach::new(&cells, &net, raster, poll)?);
         }
         Ok(())
     }

@@ -29,15 +29,15 @@ mod middles;
 mod oriented;
 mod raster;
 
-use super::patches::SurfaceIndex;
 use super::piece::reserved;
 use crate::bounds::Vector;
 use crate::error::Error;
 use crate::simd::Level;
 pub use cell::{Cell, push_cells};
-pub use curve::CurveReach;
+pub use curve::{Chain, CurveReach};
 use field::{Field, STRAIGHT, WIDEST};
 use joints::Joints;
+pub use joints::Net;
 use middles::Middles;
 pub use raster::Raster;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -70,18 +70,18 @@ pub struct Reach {
 }
 
 impl Reach {
-    /// From the cells of all patches of an index, in their order; `poll` is asked now and then whether to stop. All cores work on many
+    /// From the cells of all patches, in their order; `poll` is asked now and then whether to stop. All cores work on many
     /// cells; the bits do not depend on them.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`], [`Error::Cancelled`].
     pub fn new(
         cells: &[Cell],
-        index: &SurfaceIndex,
+        net: &Net,
         raster: Raster,
         poll: &mut dyn FnMut() -> bool,
     ) -> Result<Self, Error> {
-        let joints = Joints::new(index)?;
+        let joints = Joints::new(net)?;
         let field = Field::new(cells, &raster, &joints)?;
         let mut bends = reserved(cells.len())?;
         bends.resize(cells.len(), [f32::INFINITY; 2]);

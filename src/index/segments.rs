@@ -4,7 +4,8 @@ use super::piece::{
     Frame, LocalNet, MAX_TENSOR_BYTES, Span, balance_for, parts_for, position_steps,
     power_of_two_over, push_tensors, reserved, tensor_len,
 };
-use super::reach::CurveReach;
+use super::reach::{Chain, CurveReach};
+use super::segment::Segment;
 use crate::analytic::Analytic;
 use crate::bezier::{Bidegree, extraction};
 use crate::bounds::{Aabb, HALF_ULP, Vector, add, extent, sub};
@@ -15,19 +16,6 @@ use crate::jet::{BezierSegment, Lane, lanes, pole_distance};
 use crate::knots::Knots;
 use crate::simd::Level;
 use crate::tree::Tree;
-
-/// One Bezier segment; its numbers are in [`CurveIndex`]'s arrays.
-#[derive(Clone, Debug)]
-pub struct Segment {
-    /// Parameters.
-    pub u: Span,
-    /// Origin of the segment's coordinates, in the index's coordinates.
-    pub center: Vector,
-    /// Greatest distance of a pole from `center`.
-    pub radius: f64,
-    /// Whether a least distance may sit on this end with a gradient: a curve end or a C0 knot.
-    pub border: [bool; 2],
-}
 
 /// Search structure of a curve.
 #[derive(Debug)]
@@ -102,7 +90,10 @@ impl CurveIndex {
     /// [`Error::OutOfMemory`], [`Error::Cancelled`].
     pub fn measure_reach(&mut self, poll: &mut dyn FnMut() -> bool) -> Result<(), Error> {
         if self.analytic.is_none() {
-            self.reach = Some(CurveReach::new(self, poll)?);
+            let net = |k: usize| self.net(k);
+            let (degree, rational) = (self.degree, self.rational);
+            let chain = Chain { segments: &self.segments, degree, rational, net: &net };
+            self.reach = Some(CurveReach::new(&chain, poll)?);
         }
         Ok(())
     }

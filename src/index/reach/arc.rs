@@ -6,7 +6,7 @@ use super::oriented::Oriented;
 use crate::bezier::{Bidegree, cut, derivative};
 use crate::bounds::{Vector, add, cross, dot, norm, scaled, sub};
 use crate::index::piece::{position_error, position_steps};
-use crate::index::segments::Segment;
+use crate::index::segment::Segment;
 
 /// What is kept of a cell until all are there: a box around it, and its shape.
 #[derive(Clone, Copy, Debug)]

@@ -16,7 +16,8 @@ use super::middles::Middles;
 use crate::bounds::{Vector, add, cross, dot, norm, scaled, sub};
 use crate::error::Error;
 use crate::index::piece::{position_error, position_steps, reserved};
-use crate::index::segments::CurveIndex;
+use crate::index::segment::Segment;
+use crate::jet::BezierSegment;
 use crate::simd::Level;
 
 /// Turn of the tangent in a cell that is aimed at, and the most cells, unless there are more segments.
@@ -35,6 +36,15 @@ const LEAST: f64 = 0.1;
 /// Tangents that differ by less are one, and ends that are nearer: what that costs is allowed for.
 const KINK: f64 = 1e-9;
 const GAP: f64 = 1e-12;
+
+/// The segments of a curve.
+pub struct Chain<'a> {
+    pub segments: &'a [Segment],
+    pub degree: usize,
+    pub rational: bool,
+    /// The poles of a segment.
+    pub net: &'a dyn Fn(usize) -> BezierSegment<'a>,
+}
 
 /// The bounds of a cell.
 #[derive(Clone, Copy, Debug)]
@@ -61,18 +71,18 @@ pub struct CurveReach {
 }
 
 impl CurveReach {
-    /// Of the segments of an index; `poll` is asked now and then whether to stop.
+    /// Of the segments of a curve; `poll` is asked now and then whether to stop.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`], [`Error::Cancelled`].
-    pub fn new(index: &CurveIndex, poll: &mut dyn FnMut() -> bool) -> Result<Self, Error> {
-        let (p, rational, count) = (index.degree(), index.is_rational(), index.segments.len());
+    pub fn new(chain: &Chain, poll: &mut dyn FnMut() -> bool) -> Result<Self, Error> {
+        let (p, rational, count) = (chain.degree, chain.rational, chain.segments.len());
         let mut starts = reserved(count + 1)?;
         starts.push(0);
         let most = (MOST_CELLS / count).clamp(1, MOST_SPLIT);
         let mut sum = 0;
         for k in 0..count {
-            sum += parts(index.net(k).poles, p, rational, AIM).clamp(1, most);
+            sum += parts((chain.net)(k).poles, p, rational, AIM).clamp(1, most);
             starts.push(sum as u32);
         }
         let mut arcs = reserved(sum)?;
@@ -81,7 +91,7 @@ impl CurveReach {
                 return Err(Error::Cancelled);
             }
             let parts = (starts[k + 1] - starts[k]) as usize;
-            push_arcs(index.net(k).poles, p, rational, &index.segments[k], parts, &mut arcs);
+            push_arcs((chain.net)(k).poles, p, rational, &chain.segments[k], parts, &mut arcs);
         }
         let mut boxes = reserved(sum)?;
         boxes.extend(arcs.iter().map(|arc: &Arc| arc.bounds));
@@ -92,10 +102,10 @@ impl CurveReach {
         for k in 0..=count {
             let (before, after) = ((k + count - 1) % count, k % count);
             let inner = k > 0 && k < count;
-            if inner && !index.segments[k].border[0] {
+            if inner && !chain.segments[k].border[0] {
                 continue;
             }
-            let [turn, apart] = join(index, before, after);
+            let [turn, apart] = join(chain, before, after);
             let is_one = turn <= KINK && (inner || apart <= GAP);
             if is_one {
                 (kink, gap) = (kink.max(turn), if inner { gap } else { gap.max(apart) });
@@ -170,14 +180,14 @@ impl CurveReach {
 }
 
 /// The angle between the tangents where one segment ends and another begins, and how far these ends are apart: at most.
-fn join(index: &CurveIndex, before: usize, after: usize) -> [f64; 2] {
+fn join(chain: &Chain, before: usize, after: usize) -> [f64; 2] {
     let end = |k: usize, s: f64| {
-        let segment = &index.segments[k];
-        let jet = index.net(k).jet(s, [0.0; 3]);
-        let (steps, rational) = (position_steps(index.degree()), index.is_rational());
+        let segment = &chain.segments[k];
+        let jet = (chain.net)(k).jet(s, [0.0; 3]);
+        let (steps, rational) = (position_steps(chain.degree), chain.rational);
         let error = position_error(steps, rational, segment.radius, segment.radius, 2.0);
         let speed = norm(jet.s);
-        let turn = 24.0 * index.degree() as f64 * error / (jet.w[0].min(1.0) * speed);
+        let turn = 24.0 * chain.degree as f64 * error / (jet.w[0].min(1.0) * speed);
         (add(segment.center, jet.d), scaled(jet.s, 1.0 / speed), turn, error)
     };
     let (a, b) = (end(before, 1.0), end(after, 0.0));

@@ -10,13 +10,23 @@ use super::oriented::extent;
 use crate::bezier::Bidegree;
 use crate::bounds::{Vector, add, dot, norm, scaled, sub};
 use crate::error::Error;
-use crate::index::patch::side;
-use crate::index::patches::{HUGE, SurfaceIndex};
+use crate::index::patch::{Patch, side};
 use crate::index::piece::{position_error, position_steps, reserved};
 
 /// Derivatives that differ by a smaller share are one, and so are sides that are nearer.
 const KINK: f64 = 1e-9;
 const GAP: f64 = 1e-12;
+
+/// The patches of a surface.
+pub struct Net<'a> {
+    pub patches: &'a [Patch],
+    /// Number of patches in v.
+    pub columns: usize,
+    pub degree: Bidegree,
+    pub rational: bool,
+    /// The poles of a patch; none for a surface so large that they are not looked at.
+    pub poles: Option<&'a dyn Fn(usize) -> &'a [f64]>,
+}
 
 /// The lines of a surface.
 #[derive(Debug, Default)]
@@ -40,13 +50,13 @@ struct Join {
 }
 
 impl Joints {
-    /// Of the patches of an index; lines of a huge surface are smooth where their knots say so.
+    /// Of a surface; without poles its lines are smooth where their knots say so.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`].
-    pub fn new(index: &SurfaceIndex) -> Result<Self, Error> {
-        let columns = index.columns;
-        let counts = [index.patches.len() / columns, columns];
+    pub fn new(net: &Net) -> Result<Self, Error> {
+        let columns = net.columns;
+        let counts = [net.patches.len() / columns, columns];
         let mut out = Self::default();
         for k in 0..2 {
             let (count, stride) = (counts[k], [columns, 1][k]);
@@ -55,9 +65,8 @@ impl Joints {
             smooth.push(false);
             stretch.push(1.0);
             for line in 1..count {
-                let is_knot = !index.patches[line * stride].border[2 * k];
-                let join =
-                    if is_knot { None } else { join(index, k, line - 1, line, counts[1 - k]) };
+                let is_knot = !net.patches[line * stride].border[2 * k];
+                let join = if is_knot { None } else { join(net, k, line - 1, line, counts[1 - k]) };
                 smooth.push(is_knot || join.is_some());
                 let before = stretch[line - 1];
                 stretch.push(match join {
@@ -75,7 +84,7 @@ impl Joints {
                 });
             }
             smooth.push(false);
-            if let Some(join) = join(index, k, count - 1, 0, counts[1 - k]) {
+            if let Some(join) = join(net, k, count - 1, 0, counts[1 - k]) {
                 let turn = (join.ratio * stretch[0] / stretch[count - 1] - 1.0).abs();
                 if turn + join.kink <= KINK && join.gap <= GAP {
                     out.kink = out.kink.max(turn + join.kink);
@@ -90,18 +99,15 @@ impl Joints {
 }
 
 /// The line between rows (k = 0) or columns of patches, the first before it; `None` where it is not smooth.
-fn join(index: &SurfaceIndex, k: usize, before: usize, after: usize, count: usize) -> Option<Join> {
-    if index.patches.len() > HUGE {
-        return None;
-    }
+fn join(net: &Net, k: usize, before: usize, after: usize, count: usize) -> Option<Join> {
     let patch = |line: usize, n: usize| {
-        if k == 0 { line * index.columns + n } else { n * index.columns + line }
+        if k == 0 { line * net.columns + n } else { n * net.columns + line }
     };
     // The ratio of a patch in the middle is that of all.
     let (mut ratio, mut kink, mut gap) = (None, 0.0f64, 0.0f64);
     for n in std::iter::once(count / 2).chain(0..count) {
-        let a = Edge::new(index, patch(before, n), k, true)?;
-        let b = Edge::new(index, patch(after, n), k, false)?;
+        let a = Edge::new(net, patch(before, n), k, true)?;
+        let b = Edge::new(net, patch(after, n), k, false)?;
         let join = a.join(&b, ratio)?;
         ratio = Some(join.ratio);
         (kink, gap) = (kink.max(join.kink), gap.max(join.gap));
@@ -121,8 +127,8 @@ struct Edge {
 }
 
 impl Edge {
-    fn new(index: &SurfaceIndex, at: usize, k: usize, at_end: bool) -> Option<Self> {
-        let (patch, net, degree) = (&index.patches[at], index.net(at), index.degree);
+    fn new(net: &Net, at: usize, k: usize, at_end: bool) -> Option<Self> {
+        let (patch, poles, degree) = (&net.patches[at], net.poles?(at), net.degree);
         let [p, q] = if k == 0 { [degree.s, degree.t] } else { [degree.t, degree.s] };
         let on = [[side::S0, side::S1], [side::T0, side::T1]][k][usize::from(at_end)];
         // Other parameters than the surface's, or none.
@@ -135,7 +141,7 @@ impl Edge {
         };
         let along = Bidegree { s: 0, t: q };
         let (mut rows, mut steps) = (Vec::new(), Vec::new());
-        for component in net.poles.chunks_exact(degree.count()) {
+        for component in poles.chunks_exact(degree.count()) {
             let (i, j) = if at_end { (p, p - 1) } else { (0, 1) };
             let (here, inner) = (row(component, i), row(component, j));
             let sign = if at_end { p as f64 } else { -(p as f64) };
@@ -143,14 +149,14 @@ impl Edge {
             rows.extend(here);
         }
         let n = q + 1;
-        let weights = if index.rational { rows[3 * n..].to_vec() } else { vec![1.0; n] };
+        let weights = if net.rational { rows[3 * n..].to_vec() } else { vec![1.0; n] };
         let points = (0..n).map(|j| {
             let local = [0, 1, 2].map(|c| rows[c * n + j] / weights[j]);
             add(patch.center, local)
         });
         let points = points.collect();
         let mut order = along;
-        let slopes = if index.rational {
+        let slopes = if net.rational {
             order = along.times(along);
             let (x, w) = rows.split_at(3 * n);
             let slope = steps.split_off(3 * n);
@@ -161,7 +167,7 @@ impl Edge {
         let m = order.count();
         let slopes = (0..m).map(|j| [0, 1, 2].map(|c| slopes[c * m + j])).collect();
         let steps = position_steps(degree.s + degree.t);
-        let error = position_error(steps, index.rational, patch.radius, patch.radius, 2.0);
+        let error = position_error(steps, net.rational, patch.radius, patch.radius, 2.0);
         let error = error + patch.spread;
         let [least, most] = extent(weights.iter().map(|w| w * w));
         let blur = 16.0 * p as f64 * error * most * (most / least);
