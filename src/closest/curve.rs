@@ -164,7 +164,7 @@ impl IndexedCurve {
         }
         if let Some(u) = hint {
             search.start_at(u, &mut proof);
-        } else if !traced && within.is_none() {
+        } else if within.is_none() {
             search.start_near(&mut proof);
         }
         search.walk(workspace, &mut proof);
@@ -375,7 +375,16 @@ impl CurveSearch<'_> {
 
     fn iterate_from(&self, k: usize, start: f64, range: [f64; 2], proof: &mut Proof) {
         let view = (self.index.net(k), sub(self.query, self.index.segments[k].center));
-        let (s, jet, taken) = foot_on_curve(&view, start, range, self.options.method, None);
+        let method = self.options.method;
+        let (s, jet, taken) = match &mut proof.trace {
+            None => foot_on_curve(&view, start, range, method, None),
+            Some(watch) => {
+                let mut tell = |step: u32, s: f64, _: f64, d: f64| {
+                    watch(step, Site { piece: k, at: [s, 0.0] }, d);
+                };
+                foot_on_curve(&view, start, range, method, Some(&mut tell))
+            }
+        };
         proof.evaluations += taken;
         let flat = || jet.is_flat().then_some([1.0, 0.0]);
         let site = Site { piece: k, at: [s, 0.0] };

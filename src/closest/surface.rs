@@ -177,7 +177,7 @@ impl IndexedSurface {
         }
         if let Some(at) = hint {
             search.start_at(at, &mut proof);
-        } else if !traced && within.is_none() {
+        } else if within.is_none() {
             search.start_near(&mut proof);
         }
         search.walk(workspace, &mut proof);
@@ -491,7 +491,15 @@ impl SurfaceSearch<'_> {
         proof: &mut Proof,
     ) {
         let view = (self.index.net(k), sub(self.query, self.index.patches[k].center));
-        let (at, jet, taken) = foot_on_surface(&view, start, range, method, None);
+        let (at, jet, taken) = match &mut proof.trace {
+            None => foot_on_surface(&view, start, range, method, None),
+            Some(watch) => {
+                let mut tell = |step: u32, s: f64, t: f64, d: f64| {
+                    watch(step, Site { piece: k, at: [s, t] }, d);
+                };
+                foot_on_surface(&view, start, range, method, Some(&mut tell))
+            }
+        };
         proof.evaluations += taken;
         proof.offer(Site { piece: k, at }, jet.d, || jet.flat_direction());
         proof.keep(Site { piece: k, at }, &jet);

@@ -181,33 +181,37 @@ impl Caster {
         let Some((index, beam)) = self.candidates(ray, memory) else {
             return Hit::none(ray_flag::BAD_RAY | ray_flag::NOT_PROVEN);
         };
-        let CastMemory { candidates, order, parts, .. } = memory;
+        let CastMemory { hits, candidates, order, parts, .. } = memory;
         order.clear();
         let least = |c: &Candidate| self.cells.least_along(c.cell, &beam.axis) - beam.slack;
         order.extend(candidates.iter().enumerate().map(|(k, c)| (least(c), k as u32)));
         order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let search = Search { index, cells: &self.cells, beam: &beam };
-        let mut best: Option<Root> = None;
-        let mut take = |root: Root| {
-            let is_nearer = best.is_none_or(|other| root.along < other.along);
-            if is_nearer && root.along >= beam.reach[0] && root.along <= beam.reach[1] {
-                best = Some(root);
-            }
-            best.map_or(f64::INFINITY, |root| root.along)
-        };
         let mut reached = f64::INFINITY;
+        let mut take = |root: Root| {
+            // What is as near may be the same place, seen from beyond a seam.
+            if root.along <= reached + beam.slack
+                && let Some(hit) = self.hit(index, &beam, root)
+            {
+                reached = reached.min(root.along);
+                hits.push(hit);
+            }
+            reached
+        };
+        let mut end = f64::INFINITY;
         for &(least, k) in &*order {
-            if least > reached {
+            if least > end {
                 break;
             }
-            let mut tell = |root: Root| reached = take(root);
+            let mut tell = |root: Root| end = take(root);
             if !search.cell(&candidates[k as usize], parts, &mut tell) {
                 let flags = self.by_line(ray, memory);
                 let hit = memory.hits.first().copied();
                 return hit.map_or(Hit::none(flags), |hit| Hit { flags: hit.flags | flags, ..hit });
             }
         }
-        best.and_then(|root| self.hit(index, &beam, root)).unwrap_or(Hit::none(0))
+        self.finish(memory);
+        memory.hits.first().map_or(Hit::none(0), |hit| Hit { count: 1, ..*hit })
     }
 
     /// The cells that a ray may meet, to `memory`.
