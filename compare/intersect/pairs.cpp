@@ -181,7 +181,8 @@ Result watched(Method method, const Net &a, const Net &b) {
 
 double median(std::vector<double> x) {
     std::sort(x.begin(), x.end());
-    return x.empty() ? 0 : x[x.size() / 2];
+    const size_t n = x.size();
+    return n == 0 ? 0 : 0.5 * (x[(n - 1) / 2] + x[n / 2]);
 }
 
 } // namespace
