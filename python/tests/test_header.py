@@ -215,7 +215,7 @@ def test_every_function_is_reached(monkeypatch):
                        [intersect.Quadric.plane([0, 0, 0], [0, 0, 1]), intersect.Quadric.sphere([1, 1, 1], 1)])
     intersect.conics(plane, intersect.Quadric.sphere([0, 0, 0], 2), 1e-9)
     caster = intersect.Caster(surface)
-    caster.first(points, [1, 0, 0]), caster.all(points, [1, 0, 0])
+    caster.first(points, [1, 0, 0]), caster.first(points, [1, 0, 0], alone=True), caster.all(points, [1, 0, 0])
     del caster
     footpoint.version(), footpoint.abi_version()
     with pytest.raises(RuntimeError, match="FPT_INTERNAL"):
