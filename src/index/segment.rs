@@ -3,7 +3,7 @@
 use super::piece::Span;
 use crate::bounds::Vector;
 
-/// One Bezier segment; its numbers are in [`CurveIndex`]'s arrays.
+/// One Bezier segment; its numbers are in the arrays of the index that holds it.
 #[derive(Clone, Debug)]
 pub struct Segment {
     /// Parameters.
