@@ -199,6 +199,13 @@ pub(crate) fn room<T>(count: usize) -> Result<Vec<T>, Error> {
     Ok(list)
 }
 
+/// A list of one value.
+pub(crate) fn filled<T: Copy>(count: usize, value: T) -> Result<Vec<T>, Error> {
+    let mut list = room(count)?;
+    list.resize(count, value);
+    Ok(list)
+}
+
 /// Refuses what memory does not hold: `count` times `bytes` are reserved and given back. For work that then allocates piece by piece.
 pub(crate) fn spare(count: usize, bytes: usize) -> Result<(), Error> {
     room::<u8>(count.checked_mul(bytes).ok_or(Error::OutOfMemory)?).map(drop)
