@@ -70,7 +70,14 @@ pub(super) fn factorise(panels: &[Panel], rows: &[usize], values: &mut [f64], wa
             let to = from + theirs[from..].iter().take_while(|&&row| row < end).count();
             let size = [theirs.len() - from, to - from];
             let place = other.width() + from;
-            multiply(product, size, &before[other.values.clone()], other.height(), place, other.width());
+            multiply(
+                product,
+                size,
+                &before[other.values.clone()],
+                other.height(),
+                place,
+                other.width(),
+            );
             for j in 0..size[1] {
                 let column = &mut own[local[theirs[from + j]] * height..][..height];
                 let terms = &product[j * size[0]..(j + 1) * size[0]];
@@ -197,7 +204,10 @@ pub(super) fn solve<const N: usize>(
             };
             let own = &x[begin + 1..panel.columns.end];
             own.iter().zip(&column[j + 1..]).for_each(|(x, a)| subtract(x, *a));
-            pattern.iter().zip(&column[panel.width()..]).for_each(|(&row, a)| subtract(&x[row], *a));
+            pattern
+                .iter()
+                .zip(&column[panel.width()..])
+                .for_each(|(&row, a)| subtract(&x[row], *a));
             x[begin] = sum.map(|x| x / column[j]);
         }
     }

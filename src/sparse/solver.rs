@@ -36,7 +36,8 @@ fn analysed(matrix: &Symmetric) -> Result<SymbolicCholesky<usize>, Error> {
     let count = matrix.count();
     let pattern = SymbolicSparseColMatRef::new_checked(count, count, starts, None, rows);
     let parameters = CholeskySymbolicParams {
-        supernodal_flop_ratio_threshold: faer::sparse::linalg::SupernodalThreshold::FORCE_SUPERNODAL,
+        supernodal_flop_ratio_threshold:
+            faer::sparse::linalg::SupernodalThreshold::FORCE_SUPERNODAL,
         ..Default::default()
     };
     factorize_symbolic_cholesky(pattern, faer::Side::Lower, SymmetricOrdering::Amd, parameters)
@@ -196,7 +197,10 @@ mod tests {
             solver.solve(&mut x, &mut vec![[0.0; 3]; n * n]);
             solver.solve(&mut single, &mut vec![[0.0]; n * n]);
             for ((x, y), z) in x.iter().zip(&truth).zip(&single) {
-                assert!((0..3).all(|k| (x[k] - y[k]).abs() < 1e-11 * (n * n) as f64), "{x:?} {y:?}");
+                assert!(
+                    (0..3).all(|k| (x[k] - y[k]).abs() < 1e-11 * (n * n) as f64),
+                    "{x:?} {y:?}"
+                );
                 assert_eq!(x[2].to_bits(), z[0].to_bits());
             }
         }

@@ -1,6 +1,6 @@
 //! A symmetric matrix as the entries of its lower triangle.
 
-use crate::curve::insertion::{filled, room};
+use crate::curve::insertion::{append, append_all, filled, room};
 use crate::error::Error;
 
 /// Lists of unknowns: two that are in one list have an entry in common.
@@ -58,13 +58,6 @@ impl Groups {
         }
         Ok((starts, lists))
     }
-}
-
-/// Appends to a list that may have to grow.
-fn append<T>(list: &mut Vec<T>, x: T) -> Result<(), Error> {
-    list.try_reserve(1).map_err(|_| Error::OutOfMemory)?;
-    list.push(x);
-    Ok(())
 }
 
 impl Symmetric {
@@ -155,14 +148,10 @@ impl Symmetric {
     /// # Errors
     /// [`Error::OutOfMemory`].
     pub fn copied(&self) -> Result<Self, Error> {
-        let mut copy = Self {
-            starts: room(self.starts.len())?,
-            rows: room(self.rows.len())?,
-            values: room(self.values.len())?,
-        };
-        copy.starts.extend_from_slice(&self.starts);
-        copy.rows.extend_from_slice(&self.rows);
-        copy.values.extend_from_slice(&self.values);
+        let mut copy = Self { starts: Vec::new(), rows: Vec::new(), values: Vec::new() };
+        append_all(&mut copy.starts, &self.starts)?;
+        append_all(&mut copy.rows, &self.rows)?;
+        append_all(&mut copy.values, &self.values)?;
         Ok(copy)
     }
 
@@ -173,7 +162,8 @@ impl Symmetric {
     pub fn whole(&self) -> Result<Whole, Error> {
         let n = self.count();
         let mut starts = filled(n + 1, 0)?;
-        let columns = || (0..n).flat_map(|j| (self.starts[j]..self.starts[j + 1]).map(move |e| (j, e)));
+        let columns =
+            || (0..n).flat_map(|j| (self.starts[j]..self.starts[j + 1]).map(move |e| (j, e)));
         for (j, e) in columns() {
             starts[self.rows[e] + 1] += 1;
             starts[j + 1] += usize::from(self.rows[e] != j);
