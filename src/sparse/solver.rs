@@ -35,9 +35,9 @@ fn analysed(matrix: &Symmetric) -> Result<SymbolicCholesky<usize>, Error> {
     let (starts, rows) = matrix.pattern();
     let count = matrix.count();
     let pattern = SymbolicSparseColMatRef::new_checked(count, count, starts, None, rows);
+    // Below zero: matrices without any product too, such as one unknown.
     let parameters = CholeskySymbolicParams {
-        supernodal_flop_ratio_threshold:
-            faer::sparse::linalg::SupernodalThreshold::FORCE_SUPERNODAL,
+        supernodal_flop_ratio_threshold: faer::sparse::linalg::SupernodalThreshold(-1.0),
         ..Default::default()
     };
     factorize_symbolic_cholesky(pattern, faer::Side::Lower, SymmetricOrdering::Amd, parameters)
@@ -218,12 +218,15 @@ mod tests {
     }
 
     #[test]
-    fn one_unknown_and_full_matrices_are_solved() {
-        for n in [1, 2, 5, 40] {
+    fn one_unknown_full_and_diagonal_matrices_are_solved() {
+        for (n, is_full) in [(1, true), (2, true), (5, true), (40, true), (7, false)] {
             let mut groups = Groups::default();
-            groups.push(0..n).unwrap();
+            if is_full {
+                groups.push(0..n).unwrap();
+            }
             let mut matrix = Symmetric::new(n, &groups).unwrap();
-            (0..n).for_each(|i| (0..=i).for_each(|j| matrix.add(i, j, 1.0)));
+            let off = f64::from(u8::from(is_full));
+            (0..n).for_each(|i| (0..=i).for_each(|j| matrix.add(i, j, off)));
             (0..n).for_each(|i| matrix.add(i, i, 1.0 + i as f64));
             let mut solver = Solver::new(&matrix).unwrap();
             assert!(solver.factorise(&matrix));
