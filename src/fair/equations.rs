@@ -17,7 +17,9 @@ pub struct Equations {
     width: usize,
     /// Of energy, distance and the model of the slope.
     matrix: Symmetric,
-    /// With the tube.
+    /// Squares of the forms of the tube.
+    tube: Symmetric,
+    /// The sum of both, the tube times its penalty.
     whole: Symmetric,
     solver: Solver,
     /// The gradient that the solution takes away.
@@ -115,6 +117,12 @@ impl Problem<'_> {
         let matrix = Symmetric::new(self.count * width, &groups)?;
         drop(groups);
         let (whole, solver) = (matrix.copied()?, Solver::new(&matrix)?);
+        let mut squares = matrix.copied()?;
+        for form in tube.cells() {
+            for axis in 0..width {
+                Self::add_squares(form, &|k| Some(width * k + axis), &mut squares);
+            }
+        }
         let mut rows = Vec::new();
         for axis in 0..width {
             for cell in self.kept.cells() {
@@ -133,8 +141,19 @@ impl Problem<'_> {
             None
         };
         let room = filled(self.count, [0.0; 3])?;
-        let mut equations =
-            Equations { width, matrix, whole, solver, pull: Vec::new(), rows, solved, schur, room };
+        let pull = Vec::new();
+        let mut equations = Equations {
+            width,
+            matrix,
+            tube: squares,
+            whole,
+            solver,
+            pull,
+            rows,
+            solved,
+            schur,
+            room,
+        };
         self.renew(&mut equations, state, held)?;
         Ok(equations)
     }
@@ -189,18 +208,8 @@ impl Equations {
     }
 
     /// Factors the matrix with the tube's penalty, and what keeps the kept forms; false when it is not definite.
-    pub fn factorise(&mut self, tube: &Functional, penalty: f64) -> bool {
-        let width = self.width;
-        self.whole.copy_from(&self.matrix);
-        for form in tube.cells() {
-            for (n, (&i, x)) in form.poles.iter().zip(form.rows).enumerate() {
-                for (&j, y) in form.poles[..=n].iter().zip(form.rows) {
-                    for axis in 0..width {
-                        self.whole.add(width * i + axis, width * j + axis, penalty * x * y);
-                    }
-                }
-            }
-        }
+    pub fn factorise(&mut self, penalty: f64) -> bool {
+        self.whole.set_sum(&self.matrix, penalty, &self.tube);
         self.whole.add_ridge(RIDGE);
         if !self.solver.factorise(&self.whole) {
             return false;

@@ -184,7 +184,7 @@ impl Problem<'_> {
         let mut equations = self.equations(&tube, state, held)?;
         let squares: f64 = tube.cells().flat_map(|form| form.rows).map(|x| x * x).sum();
         let mut penalty = 1e-3 * equations.trace() / squares.max(f64::MIN_POSITIVE);
-        if !equations.factorise(&tube, penalty) {
+        if !equations.factorise(penalty) {
             return Ok(false);
         }
         let mut length = self.length(state, &mut equations, 0)?;
@@ -242,7 +242,7 @@ impl Problem<'_> {
                 penalty *= change;
                 shift.iter_mut().for_each(|y| *y = scaled(*y, 1.0 / change));
             }
-            if (is_new || is_unbalanced) && !equations.factorise(&tube, penalty) {
+            if (is_new || is_unbalanced) && !equations.factorise(penalty) {
                 return Ok(false);
             }
             if k % EVERY == 0 || is_unbalanced {

@@ -124,9 +124,10 @@ impl Symmetric {
         self.values.fill(0.0);
     }
 
-    /// Takes the values of a matrix with the same pattern.
-    pub fn copy_from(&mut self, other: &Self) {
-        self.values.copy_from_slice(&other.values);
+    /// Becomes `a + share b`; all three have the same pattern.
+    pub fn set_sum(&mut self, a: &Self, share: f64, b: &Self) {
+        let terms = a.values.iter().zip(&b.values);
+        self.values.iter_mut().zip(terms).for_each(|(x, (a, b))| *x = a + share * b);
     }
 
     /// An entry of the diagonal.
