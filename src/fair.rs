@@ -14,17 +14,21 @@
 //! Limit: energies are integrals over the parameters (or over the arc length of the shape as it was): Gauss' quadrature, exact
 //! for polynomial shapes.
 
+mod cells;
+
 mod rows;
 
 mod slope;
 
-mod envelope;
+mod length;
 
 mod solve;
 
+mod equations;
+
 mod local;
 
-mod length;
+mod lines;
 
 mod curve;
 

@@ -27,6 +27,8 @@ pub mod jet;
 
 pub mod tree;
 
+mod sparse;
+
 pub mod analytic;
 
 pub mod index;

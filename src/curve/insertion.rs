@@ -199,6 +199,27 @@ pub(crate) fn room<T>(count: usize) -> Result<Vec<T>, Error> {
     Ok(list)
 }
 
+/// Appends to a list that may have to grow.
+pub(crate) fn append<T>(list: &mut Vec<T>, x: T) -> Result<(), Error> {
+    list.try_reserve(1).map_err(|_| Error::OutOfMemory)?;
+    list.push(x);
+    Ok(())
+}
+
+/// Appends many.
+pub(crate) fn append_all<T: Copy>(list: &mut Vec<T>, more: &[T]) -> Result<(), Error> {
+    list.try_reserve(more.len()).map_err(|_| Error::OutOfMemory)?;
+    list.extend_from_slice(more);
+    Ok(())
+}
+
+/// A list of one value.
+pub(crate) fn filled<T: Copy>(count: usize, value: T) -> Result<Vec<T>, Error> {
+    let mut list = room(count)?;
+    list.resize(count, value);
+    Ok(list)
+}
+
 /// Refuses what memory does not hold: `count` times `bytes` are reserved and given back. For work that then allocates piece by piece.
 pub(crate) fn spare(count: usize, bytes: usize) -> Result<(), Error> {
     room::<u8>(count.checked_mul(bytes).ok_or(Error::OutOfMemory)?).map(drop)
@@ -209,7 +230,8 @@ pub(crate) fn copy_of<T: Copy>(list: &[T]) -> Result<Vec<T>, Error> {
     collect(list.len(), list.iter().copied())
 }
 
-fn collect<T>(count: usize, entries: impl Iterator<Item = T>) -> Result<Vec<T>, Error> {
+/// A list of the first `count` entries.
+pub(crate) fn collect<T>(count: usize, entries: impl Iterator<Item = T>) -> Result<Vec<T>, Error> {
     let mut list = room(count)?;
     list.extend(entries);
     Ok(list)

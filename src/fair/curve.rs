@@ -1,12 +1,14 @@
 //! Fairing of curves.
 
+use super::cells::Functional;
 use super::length::{LengthLimit, arc_length};
-use super::rows::{Cell, Functional, curve_energy, curve_rows, hull_deviation, jumps, refinement};
+use super::rows::{curve_energy, curve_rows, hull_deviation, jumps, refinement};
 use super::slope::Slope;
 use super::solve::{Problem, State, differences};
 use super::{Faired, Method};
 use crate::bounds::{Vector, cross, dot, norm, sub};
 use crate::curve::Curve;
+use crate::curve::insertion::{append, collect, filled, spare};
 use crate::error::Error;
 use crate::index::IndexedCurve;
 use crate::inspect::turn_count;
@@ -14,6 +16,9 @@ use crate::knots::{Knots, Side};
 
 /// Poles up to which the proof is sharpened by inserted knots.
 const SHARPEN_UP_TO: usize = 400;
+
+/// Bytes a pole that must be there for what is allocated piece by piece: copies of the curve, its index where bends are counted.
+const BYTES: usize = 4096;
 
 /// Relative error of arc lengths that are compared.
 const LENGTH_ERROR: f64 = 1e-9;
@@ -156,16 +161,20 @@ pub(super) fn repeats(knots: &Knots) -> bool {
     (0..=2 * p).all(|i| (t[n - p + i] - t[i] - period).abs() <= 1e-12 * period.abs())
 }
 
-/// Whether each pole may move by the choice of knots.
-fn chosen_poles(curve: &Curve, fairing: &CurveFairing, lines: &[(f64, Cell)]) -> Vec<bool> {
+/// Whether each pole may move by the choice of knots; `inner` are the knots of the cells `lines`.
+fn chosen_poles(
+    curve: &Curve,
+    fairing: &CurveFairing,
+    (inner, lines): (&[f64], &Functional),
+) -> Result<Vec<bool>, Error> {
     let is_free = fairing.method != Method::Local || fairing.knots.is_empty();
-    let mut chosen = vec![is_free; curve.poles().len()];
-    for (_, cell) in lines.iter().filter(|line| fairing.knots.contains(&line.0)) {
+    let mut chosen = filled(curve.poles().len(), is_free)?;
+    for (_, cell) in inner.iter().zip(lines.cells()).filter(|line| fairing.knots.contains(line.0)) {
         let middle = (0..cell.poles.len())
             .max_by(|&a, &b| cell.rows[a].abs().total_cmp(&cell.rows[b].abs()));
         middle.into_iter().for_each(|a| chosen[cell.poles[a]] = true);
     }
-    chosen
+    Ok(chosen)
 }
 
 /// The unknown of each pole, their number, and the linear forms that must vanish.
@@ -173,13 +182,13 @@ fn freedom(
     curve: &Curve,
     fairing: &CurveFairing,
     chosen: &[bool],
-) -> (Vec<Option<usize>>, usize, Vec<Cell>) {
+) -> Result<(Vec<Option<usize>>, usize, Functional), Error> {
     let (count, p) = (curve.poles().len(), curve.degree());
     let weight = |i: usize| curve.weights().map_or(1.0, |w| w[i]);
     let same = |i: usize, j: usize| curve.poles()[i] == curve.poles()[j] && weight(i) == weight(j);
     let wrap = if repeats(curve.knots()) { wrapped(count, p, same) } else { 0 };
-    let mut fixed: Vec<bool> = chosen.iter().map(|is_chosen| !is_chosen).collect();
-    let mut kept = Vec::new();
+    let mut fixed = collect(count, chosen.iter().map(|is_chosen| !is_chosen))?;
+    let mut forms = Functional::default();
     fairing.fixed.iter().for_each(|&i| fixed[i] = true);
     let (start, end) = curve.domain();
     for (k, u) in [start, end].into_iter().enumerate() {
@@ -193,15 +202,15 @@ fn freedom(
             let poles = 0..=order.min(p);
             poles.for_each(|i| fixed[if k == 0 { i } else { count - 1 - i }] = true);
         } else {
-            kept.extend(
-                rows.chunks_exact(p + 1).take(p.min(order) + 1).map(|row| cell(first, row)),
-            );
+            for row in rows.chunks_exact(p + 1).take(p.min(order) + 1) {
+                forms.push(first..first + p + 1, row)?;
+            }
         }
     }
     for &u in &fairing.through {
         let (first, rows) = curve_rows(curve, u, Side::Above, 0);
         if fairing.method == Method::Energy {
-            kept.push(cell(first, &rows));
+            forms.push(first..first + p + 1, &rows)?;
         } else {
             let pulls = (0..=p).filter(|&i| rows[i] != 0.0);
             pulls.for_each(|i| fixed[first + i] = true);
@@ -210,7 +219,7 @@ fn freedom(
     if wrap > 0 {
         (0..wrap).for_each(|i| fixed[i] = fixed[i] || fixed[count - wrap + i]);
     }
-    let mut unknowns = vec![None; count];
+    let mut unknowns = filled(count, None)?;
     let mut next = 0;
     for i in 0..count - wrap {
         if !fixed[i] {
@@ -221,13 +230,12 @@ fn freedom(
     for i in 0..wrap {
         unknowns[count - wrap + i] = unknowns[i];
     }
-    // A form over poles that stay says nothing; two equal ones say it once.
-    kept.retain(|cell: &Cell| cell.poles.iter().any(|&i| unknowns[i].is_some()));
-    (unknowns, next, kept)
-}
-
-fn cell(first: usize, row: &[f64]) -> Cell {
-    Cell { poles: (first..first + row.len()).collect(), rows: row.to_vec() }
+    // A form over poles that stay says nothing.
+    let mut kept = Functional::default();
+    for cell in forms.cells().filter(|cell| cell.poles.iter().any(|&i| unknowns[i].is_some())) {
+        kept.push(cell.poles.iter().copied(), cell.rows)?;
+    }
+    Ok((unknowns, next, kept))
 }
 
 /// How far no point of `new` has moved, proven: the hull of the difference after each span has been halved twice.
@@ -236,7 +244,7 @@ fn proven_deviation(curve: &Curve, new: &[Vector]) -> Result<f64, Error> {
     if plain == 0.0 || curve.poles().len() > SHARPEN_UP_TO {
         return Ok(plain);
     }
-    let difference = moved(curve, &differences(new, curve.poles()));
+    let difference = moved(curve, &differences(new, curve.poles())?);
     let difference = difference.refine(&quarters(difference.knots()))?;
     let zero = vec![[0.0; 3]; difference.poles().len()];
     let sharp = hull_deviation(difference.poles(), &zero);
@@ -246,19 +254,24 @@ fn proven_deviation(curve: &Curve, new: &[Vector]) -> Result<f64, Error> {
 }
 
 /// The poles of a motion over quartered spans; over the spans themselves where the proof does not cut them.
-fn tubes(curve: &Curve) -> Vec<Cell> {
+fn tubes(curve: &Curve) -> Result<Functional, Error> {
     let (knots, count) = (curve.knots(), curve.poles().len());
     let fine = if count > SHARPEN_UP_TO { None } else { refinement(knots, &quarters(knots)) };
+    let mut tubes = Functional::default();
     let Some(fine) = fine else {
-        return (0..count).map(|i| cell(i, &[1.0])).collect();
+        for i in 0..count {
+            tubes.push(std::iter::once(i), &[1.0])?;
+        }
+        return Ok(tubes);
     };
     let weight = |i: usize| curve.weights().map_or(1.0, |w| w[i]);
-    let cells = fine.iter().map(|(first, row)| {
+    for (first, row) in fine {
         let row: Vec<f64> = row.iter().enumerate().map(|(j, x)| x * weight(first + j)).collect();
         let sum: f64 = row.iter().sum();
-        cell(*first, &row.iter().map(|x| x / sum).collect::<Vec<f64>>())
-    });
-    cells.collect()
+        let row: Vec<f64> = row.iter().map(|x| x / sum).collect();
+        tubes.push(first..first + row.len(), &row)?;
+    }
+    Ok(tubes)
 }
 
 /// The places that cut every span in four, but for those that are knots because a span is that short.
@@ -317,7 +330,7 @@ impl Calm<'_> {
         run: &mut Run,
         proven: &Proof,
     ) -> Result<Option<(State, bool, f64)>, Error> {
-        let sampled = Slope::new(self.curve, 1.0);
+        let sampled = Slope::new(self.curve, 1.0)?;
         // Degrees too high for a proof are counted at samples.
         let count = |poles: &[Vector]| {
             let shape = IndexedCurve::new(moved(self.curve, poles));
@@ -328,37 +341,37 @@ impl Calm<'_> {
             return Ok(None);
         }
         let old = self.curve.poles();
-        let calming = curve_energy(self.curve, [0.0, 0.0, 0.0, 1.0], true);
-        let asked = problem.energy.clone();
+        let calming = curve_energy(self.curve, [0.0, 0.0, 0.0, 1.0], true)?;
+        let asked = problem.energy.copied()?;
         let (first, calm) = (plain.energies[0], calming.value(old));
         let energy = |problem: &Problem, poles: &[Vector]| problem.value(poles, old);
         let slope = problem.slope.take();
-        problem.energy = calming.clone();
+        problem.energy = calming.copied()?;
         problem.radius = self.radius;
-        let mut state = State::new(old, calm);
+        let mut state = State::new(old, calm)?;
         let mut found = problem.in_rounds(&mut state, self.deviation, run, proven)?;
-        (problem.energy, problem.slope) = (asked.clone(), slope);
+        (problem.energy, problem.slope) = (asked.copied()?, slope);
         let most = count(&state.poles);
         if most >= before || calm <= 0.0 || found.1 == 0.0 {
             return Ok(None);
         }
-        let mut best = State { energies: vec![first], ..State::new(old, first) };
+        let mut best = State::new(old, first)?;
         let mut result = None;
-        let mut value = energy(problem, &state.poles);
+        let mut value = energy(problem, &state.poles)?;
         for power in CALMING {
             if value < best.last() && count(&state.poles) <= most {
-                best.poles.clone_from(&state.poles);
-                best.energies.push(value);
+                best.poles.copy_from_slice(&state.poles);
+                append(&mut best.energies, value)?;
                 result = Some(found);
             }
             let share = first / calm * 10f64.powi(power);
-            problem.energy = asked.with(share, &calming);
-            let mixed = energy(problem, &state.poles);
-            state = State { poles: state.poles, energies: vec![mixed], ..State::new(old, mixed) };
+            problem.energy = asked.with(share, &calming)?;
+            let mixed = energy(problem, &state.poles)?;
+            state = State { poles: state.poles, ..State::new(old, mixed)? };
             problem.radius = self.radius;
             found = problem.in_rounds(&mut state, self.deviation, run, proven)?;
-            problem.energy = asked.clone();
-            value = energy(problem, &state.poles);
+            problem.energy = asked.copied()?;
+            value = energy(problem, &state.poles)?;
             if found.1 == 0.0 {
                 break;
             }
@@ -379,23 +392,27 @@ pub fn fair_curve(
     poll: &mut dyn FnMut() -> bool,
 ) -> Result<Faired<Curve>, Error> {
     check(curve, fairing)?;
-    let lines: Vec<(f64, Cell)> = jumps(curve);
-    let (unknowns, count, kept) = freedom(curve, fairing, &chosen_poles(curve, fairing, &lines));
+    spare(curve.poles().len(), BYTES)?;
+    let (inner, lines) = jumps(curve)?;
+    let chosen = chosen_poles(curve, fairing, (&inner, &lines))?;
+    let (unknowns, count, kept) = freedom(curve, fairing, &chosen)?;
+    let mut chosen = Vec::new();
+    for (k, u) in inner.iter().enumerate() {
+        if fairing.knots.is_empty() || fairing.knots.contains(u) {
+            append(&mut chosen, k..k + 1)?;
+        }
+    }
     let weights = [0.0, 0.0, fairing.strain, fairing.jerk];
     let energy = match fairing.method {
-        Method::KnotRemoval => Functional(lines.iter().map(|line| line.1.clone()).collect()),
-        _ => curve_energy(curve, weights, fairing.by_length),
+        Method::KnotRemoval => lines,
+        _ => curve_energy(curve, weights, fairing.by_length)?,
     };
     let distance = if fairing.method == Method::Energy && fairing.distance > 0.0 {
-        curve_energy(curve, [fairing.distance, 0.0, 0.0, 0.0], fairing.by_length)
+        curve_energy(curve, [fairing.distance, 0.0, 0.0, 0.0], fairing.by_length)?
     } else {
         Functional::default()
     };
-    let slope = (fairing.slope > 0.0).then(|| Slope::new(curve, fairing.slope));
-    let chosen: Vec<Vec<usize>> = (0..lines.len())
-        .filter(|&k| fairing.knots.is_empty() || fairing.knots.contains(&lines[k].0))
-        .map(|k| vec![k])
-        .collect();
+    let slope = if fairing.slope > 0.0 { Some(Slope::new(curve, fairing.slope)?) } else { None };
     let radius = fairing.deviation * (1.0 - 1e-9) - size_rounding(curve);
     if radius <= 0.0 {
         let text = "deviation: is below the rounding of the poles".to_string();
@@ -408,7 +425,7 @@ pub fn fair_curve(
         })
     };
     let proven = |poles: &[Vector]| proven_deviation(curve, poles);
-    let tubes = tubes(curve);
+    let tubes = tubes(curve)?;
     let mut problem = Problem {
         energy,
         distance,
@@ -418,12 +435,12 @@ pub fn fair_curve(
         kept,
         tubes,
         radius,
-        length: fairing.length.map(|range| LengthLimit::new(curve, range)),
+        length: fairing.length.map(|range| LengthLimit::new(curve, range)).transpose()?,
         allowed: &fits,
         poll,
     };
-    let mut state = State::new(curve.poles(), 0.0);
-    state.energies[0] = problem.value(curve.poles(), curve.poles());
+    let mut state = State::new(curve.poles(), 0.0)?;
+    state.energies[0] = problem.value(curve.poles(), curve.poles())?;
     if !state.last().is_finite() {
         let text =
             "strain: its energy, that of jerk or slope or of the shape is too large for a number";

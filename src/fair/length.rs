@@ -1,8 +1,11 @@
 //! Arc length by Gauss' quadrature, halved until it settles.
 
-use super::rows::{Cell, curve_rows, gauss, quadrature};
+use super::cells::Functional;
+use super::rows::{curve_rows, gauss, quadrature};
 use crate::bounds::{Vector, add, norm, scaled};
 use crate::curve::Curve;
+use crate::curve::insertion::{append, filled};
+use crate::error::Error;
 use crate::knots::Side;
 
 /// Halvings of a span at most.
@@ -49,34 +52,43 @@ fn part(
 pub struct LengthLimit {
     /// Least and greatest length.
     pub range: [f64; 2],
-    /// Rows of the first derivative, with the weight of the place.
-    places: Vec<(Cell, f64)>,
+    /// Rows of the first derivative, and the weights of the places.
+    places: Functional,
+    weights: Vec<f64>,
 }
 
 impl LengthLimit {
-    pub fn new(curve: &Curve, range: [f64; 2]) -> Self {
+    /// For the knots and weights of `curve`.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn new(curve: &Curve, range: [f64; 2]) -> Result<Self, Error> {
         let p = curve.degree();
-        let place = |&[u, weight]: &[f64; 2]| {
+        let (mut places, mut weights) = (Functional::default(), Vec::new());
+        for [u, weight] in quadrature(curve.knots(), true).flatten() {
             let (first, rows) = curve_rows(curve, u, Side::Above, 1);
-            (Cell { poles: (first..=first + p).collect(), rows: rows[p + 1..].to_vec() }, weight)
-        };
-        let places = quadrature(curve.knots(), true).iter().flatten().map(place).collect();
-        Self { range, places }
+            places.push(first..first + p + 1, &rows[p + 1..])?;
+            append(&mut weights, weight)?;
+        }
+        Ok(Self { range, places, weights })
     }
 
     /// The length and its gradient.
-    pub fn with_gradient(&self, poles: &[Vector]) -> (f64, Vec<Vector>) {
-        let (mut length, mut gradient) = (0.0, vec![[0.0; 3]; poles.len()]);
-        for (cell, weight) in &self.places {
-            let way = cell.apply(&cell.rows, poles);
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn with_gradient(&self, poles: &[Vector]) -> Result<(f64, Vec<Vector>), Error> {
+        let (mut length, mut gradient) = (0.0, filled(poles.len(), [0.0; 3])?);
+        for (cell, weight) in self.places.cells().zip(&self.weights) {
+            let way = cell.apply(cell.rows, poles);
             let speed = norm(way);
             length += weight * speed;
             if speed > 0.0 {
-                for (x, &i) in cell.rows.iter().zip(&cell.poles) {
+                for (x, &i) in cell.rows.iter().zip(cell.poles) {
                     gradient[i] = add(gradient[i], scaled(way, weight * x / speed));
                 }
             }
         }
-        (length, gradient)
+        Ok((length, gradient))
     }
 }

@@ -1,90 +1,14 @@
-//! Rows: linear forms in the poles, such as a derivative at a parameter, and energies made of them.
+//! Rows of derivatives, jumps and refinements, and the energies made of them.
 
+use super::cells::{Cell, Functional, condense};
 use crate::basis;
 use crate::bounds::{HALF_ULP, Vector, dot, scaled, sub};
+use crate::curve::insertion::{copy_of, filled};
 use crate::curve::{Curve, binomial};
+use crate::error::Error;
 use crate::knots::{Knots, Side};
 use crate::portable::SameDigits;
 use crate::surface::Surface;
-
-/// Rows over the same poles, each `poles.len()` long.
-#[derive(Clone, Debug)]
-pub struct Cell {
-    /// Indices of the poles.
-    pub poles: Vec<usize>,
-    /// The coefficients, row after row.
-    pub rows: Vec<f64>,
-}
-
-/// A sum of squared lengths of rows applied to poles.
-#[derive(Clone, Debug, Default)]
-pub struct Functional(pub Vec<Cell>);
-
-impl Cell {
-    /// One row applied to poles.
-    pub fn apply(&self, row: &[f64], poles: &[Vector]) -> Vector {
-        let mut sum = [0.0; 3];
-        for (x, &i) in row.iter().zip(&self.poles) {
-            for k in 0..3 {
-                sum[k] += x * poles[i][k];
-            }
-        }
-        sum
-    }
-}
-
-impl Functional {
-    /// Its value, never negative.
-    pub fn value(&self, poles: &[Vector]) -> f64 {
-        let cell = |cell: &Cell| -> f64 {
-            let length = |row: &[f64]| {
-                let x = cell.apply(row, poles);
-                dot(x, x)
-            };
-            cell.rows.chunks_exact(cell.poles.len()).map(length).sum()
-        };
-        self.0.iter().map(cell).sum()
-    }
-
-    /// The sum with `share` times another one.
-    pub fn with(&self, share: f64, other: &Self) -> Self {
-        let root = share.sqrt();
-        let scaled = |cell: &Cell| {
-            let rows = cell.rows.iter().map(|x| root * x).collect();
-            Cell { poles: cell.poles.clone(), rows }
-        };
-        Self(self.0.iter().cloned().chain(other.0.iter().map(scaled)).collect())
-    }
-
-    /// Half its gradient.
-    pub fn gradient(&self, poles: &[Vector]) -> Vec<Vector> {
-        let mut gradient = vec![[0.0; 3]; poles.len()];
-        for cell in &self.0 {
-            for row in cell.rows.chunks_exact(cell.poles.len()) {
-                let x = cell.apply(row, poles);
-                for (r, &i) in row.iter().zip(&cell.poles) {
-                    for k in 0..3 {
-                        gradient[i][k] += r * x[k];
-                    }
-                }
-            }
-        }
-        gradient
-    }
-
-    /// Half its second derivative by each pole.
-    pub fn diagonal(&self, count: usize) -> Vec<f64> {
-        let mut diagonal = vec![0.0; count];
-        for cell in &self.0 {
-            for row in cell.rows.chunks_exact(cell.poles.len()) {
-                for (r, &i) in row.iter().zip(&cell.poles) {
-                    diagonal[i] += r * r;
-                }
-            }
-        }
-        diagonal
-    }
-}
 
 /// Derivatives 0 to `count` of the rational basis functions at `u`: first pole, and `degree + 1` numbers an order.
 pub fn curve_rows(curve: &Curve, u: f64, side: Side, count: usize) -> (usize, Vec<f64>) {
@@ -191,48 +115,57 @@ pub fn gauss(n: usize) -> Vec<[f64; 2]> {
 }
 
 /// Quadrature of a shape in one direction: for each span, parameters and weights.
-pub fn quadrature(knots: &Knots, rational: bool) -> Vec<Vec<[f64; 2]>> {
+pub fn quadrature(knots: &Knots, rational: bool) -> impl Iterator<Item = Vec<[f64; 2]>> + '_ {
     let p = knots.degree();
     let rule = gauss(if rational { 2 * p + 2 } else { p + 1 });
     let t = knots.values();
-    let span = |i: usize| {
+    let span = move |i: usize| {
         let length = t[i + 1] - t[i];
         rule.iter().map(|[x, w]| [t[i] + x * length, w * length]).collect()
     };
-    knots.spans().map(span).collect()
+    knots.spans().map(span)
 }
 
 /// The energy of a curve: `weights[k]` times the integral of the squared derivative of order k.
 ///
 /// `by_length`: derivatives and integral by the arc length of the curve as it is now, not by the parameter.
-pub fn curve_energy(curve: &Curve, weights: [f64; 4], by_length: bool) -> Functional {
+///
+/// # Errors
+/// [`Error::OutOfMemory`].
+pub fn curve_energy(
+    curve: &Curve,
+    weights: [f64; 4],
+    by_length: bool,
+) -> Result<Functional, Error> {
     let p = curve.degree();
-    let mut cells = Vec::new();
+    let mut energy = Functional::default();
     for span in quadrature(curve.knots(), curve.is_rational()) {
-        let mut cell = Cell { poles: Vec::new(), rows: Vec::new() };
+        let (mut poles, mut scaled) = (0..0, Vec::new());
         for [u, weight] in span {
             let (first, mut rows) = curve_rows(curve, u, Side::Above, 3);
-            cell.poles = (first..=first + p).collect();
+            poles = first..first + p + 1;
             let mut measure = weight;
             if by_length {
-                let Some(speed) = to_arc_length(&cell, &mut rows, curve.poles()) else { continue };
+                let own: Vec<usize> = poles.clone().collect();
+                let cell = Cell { poles: &own, rows: &[] };
+                let Some(speed) = to_arc_length(cell, &mut rows, curve.poles()) else { continue };
                 measure *= speed;
             }
             for (row, w) in rows.chunks_exact(p + 1).zip(weights) {
                 if w > 0.0 {
                     let root = (w * measure).sqrt();
-                    cell.rows.extend(row.iter().map(|x| root * x));
+                    scaled.extend(row.iter().map(|x| root * x));
                 }
             }
         }
-        cells.push(cell);
+        energy.push(poles, &scaled)?;
     }
-    Functional(cells)
+    Ok(energy)
 }
 
 /// Turns rows of derivatives by the parameter into those by the arc length that the poles give; gives the speed, or nothing
 /// where it vanishes.
-pub fn to_arc_length(cell: &Cell, rows: &mut [f64], poles: &[Vector]) -> Option<f64> {
+pub fn to_arc_length(cell: Cell, rows: &mut [f64], poles: &[Vector]) -> Option<f64> {
     let n = cell.poles.len();
     let [d1, d2, d3] = [1, 2, 3].map(|k| cell.apply(&rows[k * n..(k + 1) * n], poles));
     let v = dot(d1, d1).sqrt();
@@ -253,45 +186,51 @@ pub fn to_arc_length(cell: &Cell, rows: &mut [f64], poles: &[Vector]) -> Option<
 
 /// The energy of a surface: the squared derivatives of orders 0, 2 and 3, with the weights of the thin plate (1, 2, 1) and of
 /// its like of order 3 (1, 3, 3, 1).
-pub fn surface_energy(surface: &Surface, weights: [f64; 4]) -> Functional {
+///
+/// # Errors
+/// [`Error::OutOfMemory`].
+pub fn surface_energy(surface: &Surface, weights: [f64; 4]) -> Result<Functional, Error> {
     let rational = surface.is_rational();
-    let across = quadrature(surface.knots_u(), rational);
-    let along = quadrature(surface.knots_v(), rational);
-    let mut cells = Vec::new();
-    for us in &across {
-        for vs in &along {
-            let mut cell = Cell { poles: Vec::new(), rows: Vec::new() };
-            for [u, wu] in us {
-                for [v, wv] in vs {
+    let mut energy = Functional::default();
+    for us in quadrature(surface.knots_u(), rational) {
+        for vs in quadrature(surface.knots_v(), rational) {
+            let (mut own, mut scaled) = (Vec::new(), Vec::new());
+            for [u, wu] in &us {
+                for [v, wv] in &vs {
                     let (poles, rows) = surface_rows(surface, [*u, *v], 3);
                     let width = poles.len();
-                    cell.poles = poles;
+                    own = poles;
                     for (order, weight) in weights.into_iter().enumerate() {
                         for l in 0..=order {
                             let factor = weight * binomial(order, l) * wu * wv;
                             let at = (order * (order + 1) / 2 + l) * width;
                             if factor > 0.0 {
                                 let root = factor.sqrt();
-                                cell.rows.extend(rows[at..at + width].iter().map(|x| root * x));
+                                scaled.extend(rows[at..at + width].iter().map(|x| root * x));
                             }
                         }
                     }
                 }
             }
-            cells.push(cell);
+            let left = condense(&mut scaled, own.len());
+            energy.push(own.into_iter(), &scaled[..left])?;
         }
     }
-    Functional(cells)
+    Ok(energy)
 }
 
-/// The jump of the first derivative that is not continuous, at each inner knot: the knot and the row over the poles.
-pub fn jumps(curve: &Curve) -> Vec<(f64, Cell)> {
+/// The jump of the first derivative that is not continuous, at each inner knot: the knots, and for each a cell with the row.
+///
+/// # Errors
+/// [`Error::OutOfMemory`].
+pub fn jumps(curve: &Curve) -> Result<(Vec<f64>, Functional), Error> {
     let (knots, p) = (curve.knots(), curve.degree());
     let (start, end) = knots.domain();
-    let mut inner: Vec<f64> = knots.values().to_vec();
+    let mut inner = copy_of(knots.values())?;
     inner.retain(|u| start < *u && *u < end);
     inner.dedup();
-    let jump = |u: f64| {
+    let mut jumps = Functional::default();
+    for &u in &inner {
         let order = (p + 1).saturating_sub(knots.multiplicity(u)).max(1);
         let (low, below) = curve_rows(curve, u, Side::Below, order);
         let (high, above) = curve_rows(curve, u, Side::Above, order);
@@ -300,16 +239,19 @@ pub fn jumps(curve: &Curve) -> Vec<(f64, Cell)> {
             row[high - low + i] += above[order * (p + 1) + i];
             row[i] -= below[order * (p + 1) + i];
         }
-        (u, Cell { poles: (low..=high + p).collect(), rows: row })
-    };
-    inner.into_iter().map(jump).collect()
+        jumps.push(low..high + p + 1, &row)?;
+    }
+    Ok((inner, jumps))
 }
 
 /// Rows of the jumps of a polynomial spline with these knots and one pole a knot, as [`jumps`]: for knot lines.
-pub fn knot_jumps(knots: &Knots) -> Vec<(f64, Cell)> {
-    let zero = vec![[0.0; 3]; knots.pole_count()];
+///
+/// # Errors
+/// [`Error::OutOfMemory`].
+pub fn knot_jumps(knots: &Knots) -> Result<Functional, Error> {
+    let zero = filled(knots.pole_count(), [0.0; 3])?;
     let line = Curve::from_parts(knots.clone(), zero.into(), None);
-    jumps(&line)
+    Ok(jumps(&line)?.1)
 }
 
 /// The poles over more knots as combinations of those over the given ones: for each the first pole and `degree + 1` numbers. None for
@@ -393,7 +335,8 @@ mod tests {
         let rows = refinement(curve.knots(), &inserted).unwrap();
         assert_eq!(rows.len(), fine.poles().len());
         for ((first, row), pole) in rows.iter().zip(fine.poles()) {
-            let cell = Cell { poles: (*first..first + 4).collect(), rows: vec![] };
+            let own: Vec<usize> = (*first..first + 4).collect();
+            let cell = Cell { poles: &own, rows: &[] };
             let gap = sub(cell.apply(row, &poles), *pole);
             assert!(dot(gap, gap).sqrt() < 1e-14, "{first} {row:?} {pole:?}");
         }
@@ -409,7 +352,8 @@ mod tests {
             let (first, rows) = curve_rows(&curve, u, Side::Above, 3);
             let mut out = [[0.0; 3]; 4];
             curve.derivatives(u, 3, &mut out);
-            let cell = Cell { poles: (first..first + 4).collect(), rows: vec![] };
+            let own: Vec<usize> = (first..first + 4).collect();
+            let cell = Cell { poles: &own, rows: &[] };
             for k in 0..4 {
                 let d = sub(cell.apply(&rows[4 * k..4 * k + 4], &poles), out[k]);
                 assert!(dot(d, d).sqrt() < 1e-10, "{u} {k} {d:?}");
@@ -422,8 +366,9 @@ mod tests {
         let knots = [0., 0., 0., 0., 1., 3., 3., 3., 3.];
         let poles: Vec<Vector> = (0..5).map(|i| [i as f64, (i * i % 3) as f64, 0.5]).collect();
         let curve = Curve::new(&knots, 3, &poles, None).unwrap().insert_knot(2.0, 1).unwrap();
-        for (u, cell) in jumps(&curve) {
-            let jump = cell.apply(&cell.rows, curve.poles());
+        let (knots, jumps) = jumps(&curve).unwrap();
+        for (u, cell) in knots.into_iter().zip(jumps.cells()) {
+            let jump = cell.apply(cell.rows, curve.poles());
             let size = dot(jump, jump).sqrt();
             assert!(if u == 2.0 { size < 1e-12 } else { size > 0.1 }, "{u} {size}");
         }

@@ -11,23 +11,23 @@
 //!
 //! Reference: Moreton, Séquin, *Functional optimization for fair surface design*, 1992: curves of least variation of curvature.
 
-use super::rows::{Cell, Functional, curve_rows, quadrature, to_arc_length};
+use super::cells::{Cell, Functional};
+use super::rows::{curve_rows, quadrature, to_arc_length};
 use crate::bounds::{Vector, add, cross, dot, scaled, sub};
 use crate::curve::Curve;
+use crate::curve::insertion::append;
+use crate::error::Error;
 use crate::knots::Side;
 
 /// Cross products below this share of their factors have no side.
 const NO_SIDE: f64 = 1e-9;
 
-/// One quadrature point: the poles and the rows of the derivatives 0 to 3.
-struct Place {
-    cell: Cell,
-    share: f64,
-}
-
 /// The integral as quadrature points.
 pub struct Slope {
-    places: Vec<Place>,
+    /// Rows of the derivatives 0 to 3 at the places.
+    places: Functional,
+    /// What each place counts.
+    shares: Vec<f64>,
     weight: f64,
     /// Squared speeds at the places, of the curve as it was.
     speeds: Vec<f64>,
@@ -90,20 +90,21 @@ fn residual_by([d1, d2, d3]: [Vector; 3]) -> Option<[[Vector; 3]; 3]> {
     Some(by)
 }
 
-impl Place {
-    fn derivatives(&self, poles: &[Vector]) -> [Vector; 3] {
-        let n = self.cell.poles.len();
-        [1, 2, 3].map(|k| self.cell.apply(&self.cell.rows[k * n..(k + 1) * n], poles))
-    }
+fn derivatives(place: Cell, poles: &[Vector]) -> [Vector; 3] {
+    [1, 2, 3].map(|k| place.apply(place.row(k), poles))
 }
 
 impl Slope {
     /// `weight` times the integral for the knots and weights of `curve`.
-    pub fn new(curve: &Curve, weight: f64) -> Self {
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn new(curve: &Curve, weight: f64) -> Result<Self, Error> {
         let p = curve.degree();
-        let mut spans = quadrature(curve.knots(), true);
         let t = curve.knots().values();
-        for (span, i) in spans.iter_mut().zip(curve.knots().spans()) {
+        let mut slope =
+            Self { places: Functional::default(), shares: Vec::new(), weight, speeds: Vec::new() };
+        for (span, i) in quadrature(curve.knots(), true).zip(curve.knots().spans()) {
             let (start, length) = (t[i], t[i + 1] - t[i]);
             // Twice, on both halves. Ends of spans have a say in where the curve bends to, but no share of the energy.
             let halved =
@@ -113,97 +114,104 @@ impl Slope {
             dense.extend(span.iter().map(|&place| halved(place, 0.5)));
             dense.push([start + 0.998 * length, 0.0]);
             dense.sort_by(|a, b| a[0].total_cmp(&b[0]));
-            *span = dense;
+            for [u, share] in dense {
+                let (first, rows) = curve_rows(curve, u, Side::Above, 3);
+                slope.places.push(first..first + p + 1, &rows)?;
+                append(&mut slope.shares, share)?;
+                let place = slope.places.cell(slope.places.len() - 1);
+                let [d1, ..] = derivatives(place, curve.poles());
+                append(&mut slope.speeds, dot(d1, d1))?;
+            }
         }
-        let place = |&[u, share]: &[f64; 2]| {
-            let (first, rows) = curve_rows(curve, u, Side::Above, 3);
-            Place { cell: Cell { poles: (first..=first + p).collect(), rows }, share }
-        };
-        let places: Vec<Place> = spans.iter().flatten().map(place).collect();
-        let speed = |place: &Place| {
-            let [d1, ..] = place.derivatives(curve.poles());
-            dot(d1, d1)
-        };
-        let speeds = places.iter().map(speed).collect();
-        Self { places, weight, speeds }
+        Ok(slope)
+    }
+
+    /// The places: their poles meet in the model.
+    pub fn places(&self) -> &Functional {
+        &self.places
+    }
+
+    fn counted(&self) -> impl Iterator<Item = (Cell<'_>, f64)> {
+        self.places.cells().zip(self.shares.iter().copied()).filter(|place| place.1 > 0.0)
     }
 
     /// Whether the curve is nowhere much slower than it was.
     pub fn is_regular(&self, poles: &[Vector]) -> bool {
-        self.places.iter().zip(&self.speeds).all(|(place, speed)| {
-            let [d1, ..] = place.derivatives(poles);
+        self.places.cells().zip(&self.speeds).all(|(place, speed)| {
+            let [d1, ..] = derivatives(place, poles);
             dot(d1, d1) >= LEAST_SPEED * LEAST_SPEED * speed
         })
     }
 
     /// The energy.
     pub fn value(&self, poles: &[Vector]) -> f64 {
-        let value = |place: &Place| {
-            let found = integrand(place.derivatives(poles));
-            found.map_or(f64::INFINITY, |(value, _)| place.share * value)
+        let value = |(place, share): (Cell, f64)| {
+            let found = integrand(derivatives(place, poles));
+            found.map_or(f64::INFINITY, |(value, _)| share * value)
         };
-        let counted = self.places.iter().filter(|place| place.share > 0.0);
-        self.weight * counted.map(value).sum::<f64>()
+        self.weight * self.counted().map(value).sum::<f64>()
     }
 
-    /// Half its gradient.
-    pub fn gradient(&self, poles: &[Vector]) -> Vec<Vector> {
-        let mut gradient = vec![[0.0; 3]; poles.len()];
-        for place in self.places.iter().filter(|place| place.share > 0.0) {
-            let Some((_, by)) = integrand(place.derivatives(poles)) else { continue };
-            let n = place.cell.poles.len();
-            for (a, &i) in place.cell.poles.iter().enumerate() {
+    /// Adds half its gradient.
+    pub fn add_gradient(&self, poles: &[Vector], gradient: &mut [Vector]) {
+        for (place, share) in self.counted() {
+            let Some((_, by)) = integrand(derivatives(place, poles)) else { continue };
+            for (a, &i) in place.poles.iter().enumerate() {
                 for (k, by) in by.iter().enumerate() {
-                    let row = 0.5 * self.weight * place.share * place.cell.rows[(k + 1) * n + a];
+                    let row = 0.5 * self.weight * share * place.row(k + 1)[a];
                     gradient[i] = add(gradient[i], scaled(*by, row));
                 }
             }
         }
-        gradient
     }
 
     /// Squares that stand for the energy near these poles (Gauss, Newton), over coordinates: 3 i + k is coordinate k of pole i.
-    pub fn near(&self, poles: &[Vector]) -> Vec<Cell> {
-        let cell = |place: &Place| {
-            let by = residual_by(place.derivatives(poles))?;
-            let n = place.cell.poles.len();
-            let root = (self.weight * place.share).sqrt();
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn near(&self, poles: &[Vector]) -> Result<Functional, Error> {
+        let mut near = Functional::default();
+        for (place, share) in self.counted() {
+            let Some(by) = residual_by(derivatives(place, poles)) else { continue };
+            let n = place.poles.len();
+            let root = (self.weight * share).sqrt();
             let mut rows = vec![0.0; 9 * n];
             for (i, row) in rows.chunks_exact_mut(3 * n).enumerate() {
                 for a in 0..n {
                     for j in 0..3 {
-                        row[3 * a + j] = (0..3)
-                            .map(|k| root * by[k][i][j] * place.cell.rows[(k + 1) * n + a])
-                            .sum();
+                        row[3 * a + j] =
+                            (0..3).map(|k| root * by[k][i][j] * place.row(k + 1)[a]).sum();
                     }
                 }
             }
-            let coordinates = place.cell.poles.iter().flat_map(|&i| [3 * i, 3 * i + 1, 3 * i + 2]);
-            Some(Cell { poles: coordinates.collect(), rows })
-        };
-        self.places.iter().filter(|place| place.share > 0.0).filter_map(cell).collect()
+            near.push(place.poles.iter().flat_map(|&i| [3 * i, 3 * i + 1, 3 * i + 2]), &rows)?;
+        }
+        Ok(near)
     }
 
-    /// Squares of third derivatives by the arc length that the curve has with these poles.
-    pub fn model(&self, poles: &[Vector]) -> Functional {
-        let mut cells = Vec::with_capacity(self.places.len());
-        for place in self.places.iter().filter(|place| place.share > 0.0) {
-            let n = place.cell.poles.len();
-            let mut rows = place.cell.rows.clone();
-            if let Some(speed) = to_arc_length(&place.cell, &mut rows, poles) {
-                let root = (self.weight * place.share * speed).sqrt();
-                let rows = rows[3 * n..].iter().map(|x| root * x).collect();
-                cells.push(Cell { poles: place.cell.poles.clone(), rows });
+    /// Squares of third derivatives by the arc length that the curve has with these poles, over the poles.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn model(&self, poles: &[Vector]) -> Result<Functional, Error> {
+        let mut model = Functional::default();
+        for (place, share) in self.counted() {
+            let mut rows = place.rows.to_vec();
+            if let Some(speed) = to_arc_length(place, &mut rows, poles) {
+                let root = (self.weight * share * speed).sqrt();
+                let third = &mut rows[3 * place.poles.len()..];
+                third.iter_mut().for_each(|x| *x *= root);
+                model.push(place.poles.iter().copied(), third)?;
             }
         }
-        Functional(cells)
+        Ok(model)
     }
 
     /// How often the curve, seen along `normal`, changes the side to which it bends, as the quadrature points see it.
     pub fn turns(&self, poles: &[Vector], normal: Vector) -> usize {
         let (mut turns, mut before) = (0, 0.0);
-        for place in &self.places {
-            let [d1, d2, _] = place.derivatives(poles);
+        for place in self.places.cells() {
+            let [d1, d2, _] = derivatives(place, poles);
             let side = dot(cross(d1, d2), normal);
             if side * side <= NO_SIDE * NO_SIDE * dot(d1, d1) * dot(d2, d2) {
                 continue;
@@ -226,8 +234,9 @@ mod tests {
             (0..7).map(|i| [i as f64, (i * i % 5) as f64, 0.3 * (i % 3) as f64]).collect();
         let weights = [1.0, 2.0, 0.5, 1.5, 1.0, 3.0, 1.0];
         let curve = Curve::new(&knots, 3, &poles, Some(&weights)).unwrap();
-        let slope = Slope::new(&curve, 0.7);
-        let gradient = slope.gradient(&poles);
+        let slope = Slope::new(&curve, 0.7).unwrap();
+        let mut gradient = [[0.0; 3]; 7];
+        slope.add_gradient(&poles, &mut gradient);
         for i in 0..7 {
             for k in 0..3 {
                 let (here, step) = (poles[i][k], 1e-5);
@@ -250,21 +259,21 @@ mod tests {
         let poles = [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
         let knots = [0., 0., 0., 1., 1., 1.];
         let curve = Curve::new(&knots, 2, &poles, Some(&[1.0, half, 1.0])).unwrap();
-        let slope = Slope::new(&curve, 1.0);
-        let near = slope.near(&poles);
+        let slope = Slope::new(&curve, 1.0).unwrap();
+        let near = slope.near(&poles).unwrap();
         for way in [[0.3, -0.1, 0.2], [-0.7, 0.4, 0.1], [0.2, 0.9, -0.5]] {
             let step = 1e-4;
             let mut moved = poles;
             (0..3).for_each(|i| moved[i] = add(poles[i], scaled(way, step * (i * i) as f64)));
-            let square = |cell: &Cell| -> f64 {
+            let square = |cell: Cell| -> f64 {
                 let at = |i: usize| (moved[i / 3][i % 3] - poles[i / 3][i % 3]) / step;
-                let rows = cell.rows.chunks_exact(9);
-                rows.map(|row| row.iter().zip(&cell.poles).map(|(x, &i)| x * at(i)).sum::<f64>())
+                cell.each()
+                    .map(|row| row.iter().zip(cell.poles).map(|(x, &i)| x * at(i)).sum::<f64>())
                     .map(|x| x * x)
                     .sum()
             };
             let (wanted, found) =
-                (slope.value(&moved) / (step * step), near.iter().map(square).sum::<f64>());
+                (slope.value(&moved) / (step * step), near.cells().map(square).sum::<f64>());
             assert!((wanted - found).abs() < 1e-2 * wanted, "{wanted} {found}");
         }
     }
@@ -275,9 +284,9 @@ mod tests {
         let poles = [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
         let knots = [0., 0., 0., 1., 1., 1.];
         let curve = Curve::new(&knots, 2, &poles, Some(&[1.0, half, 1.0])).unwrap();
-        let value = Slope::new(&curve, 1.0).value(&poles);
+        let value = Slope::new(&curve, 1.0).unwrap().value(&poles);
         assert!(value < 1e-20, "{value}");
         let curve = Curve::new(&knots, 2, &poles, None).unwrap();
-        assert!(Slope::new(&curve, 1.0).value(&poles) > 1e-3);
+        assert!(Slope::new(&curve, 1.0).unwrap().value(&poles) > 1e-3);
     }
 }

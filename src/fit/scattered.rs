@@ -13,6 +13,7 @@
 use super::triangle::zeros;
 use crate::basis;
 use crate::bounds::{Vector, sub};
+use crate::curve::insertion::{collect, filled};
 use crate::error::Error;
 use crate::knots::{Knots, MAX_DEGREE};
 
@@ -149,10 +150,8 @@ impl Design {
         let factor = self.normal()?.factored().ok_or_else(|| {
             Error::InvalidArgument("parameters: they do not determine a surface".into())
         })?;
-        let mut unknowns = Vec::new();
-        unknowns.try_reserve_exact(2 * count).map_err(|_| Error::OutOfMemory)?;
-        unknowns.resize(count, [0.0; 3]);
-        let mut step = vec![[0.0; 3]; count];
+        let mut unknowns = filled(count, [0.0; 3])?;
+        let mut step = filled(count, [0.0; 3])?;
         for _ in 0..CORRECTIONS {
             let at = self.points(&unknowns);
             let residuals = at.zip(points).map(|(at, point)| sub(sub(*point, center), at));
@@ -170,12 +169,11 @@ impl Design {
                 break;
             }
         }
-        Ok((0..count)
-            .map(|k| {
-                let [i, j] = [k / count_v, k % count_v];
-                unknowns[i * self.strides[0] + j * self.strides[1]]
-            })
-            .collect())
+        let pole = |k: usize| {
+            let [i, j] = [k / count_v, k % count_v];
+            unknowns[i * self.strides[0] + j * self.strides[1]]
+        };
+        collect(count, (0..count).map(pole))
     }
 }
 
