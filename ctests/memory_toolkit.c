@@ -134,6 +134,7 @@ static void memory_that_cannot_be_had_is_a_status(void) {
 }
 
 int main(void) {
+    static double net[3 * NET * NET];
     poles = (double *)malloc(3 * POLES * sizeof *poles);
     knots = (double *)malloc((POLES + 4) * sizeof *knots);
     parameters = (double *)malloc(POLES * sizeof *parameters);
@@ -162,12 +163,11 @@ int main(void) {
     CHECK_OK(fpt_surface_interpolate(grid, SIDE, SIDE, &options, &surface));
     CHECK_OK(fpt_curve_part(curve, 10.5, 2010.5, &bow));
     for (size_t i = 0; i < NET * NET; i++) {
-        grid[3 * i] = (double)(i / NET);
-        grid[3 * i + 1] = (double)(i % NET);
-        grid[3 * i + 2] = 0.01 * (double)(i * i % 11);
+        net[3 * i] = (double)(i / NET);
+        net[3 * i + 1] = (double)(i % NET);
+        net[3 * i + 2] = 0.01 * (double)(i * i % 11);
     }
-    options.tolerance = 1e-6;
-    CHECK_OK(fpt_surface_interpolate(grid, NET, NET, &options, &sheet));
+    CHECK_OK(fpt_surface_interpolate(net, NET, NET, NULL, &sheet));
     fpt_fair_options_init(&fairing, sizeof fairing);
     fairing.deviation = 0.05;
     fairing.steps = 20;

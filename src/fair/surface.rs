@@ -229,8 +229,8 @@ fn proven_deviation(surface: &Surface, new: &[Vector]) -> Result<f64, Error> {
 
 /// A fairer surface on the same knots and weights, within the deviation.
 ///
-/// Cost: a step solves sparse equations with one unknown a pole, which are factored a few times: `n^1.5` operations and `n log n` memory for
-/// n poles (nested orders of elimination; George, 1973).
+/// Cost: a step solves sparse equations with one unknown a pole, which are factored a few times: some `n^1.5` operations and
+/// `n log n` memory for n poles, as figures in docs/fairing.md have it. The local methods: a step costs what the poles touch that move.
 ///
 /// # Errors
 /// What is asked makes no sense (named); too many poles for the memory; [`Error::Cancelled`].

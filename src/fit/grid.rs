@@ -9,6 +9,7 @@ use super::parameters::{averaged_knots, check_parameters, check_points, paramete
 use super::triangle::zeros;
 use super::{Adaptive, Ends, INTERPOLATION_TOLERANCE, Spacing, point, rising, solve};
 use crate::bounds::{Vector, norm, sub};
+use crate::curve::insertion::collect;
 use crate::curve::insertion::spare;
 use crate::error::Error;
 use crate::knots::{Knots, MAX_DEGREE};
@@ -202,7 +203,7 @@ fn measured(
 ) -> Result<SheetFit, Error> {
     let (center, counts) = (grid.points[0], [knots_u.pole_count(), knots_v.pole_count()]);
     let place = |p: &[f64]| [p[0] + center[0], p[1] + center[1], p[2] + center[2]];
-    let list: Vec<Vector> = poles.chunks_exact(3).map(place).collect();
+    let list = collect(poles.len() / 3, poles.chunks_exact(3).map(place))?;
     let surface = Surface::new(
         knots_u.values(),
         knots_v.values(),
