@@ -3,6 +3,7 @@
 use super::contact::{foot, settle};
 use super::join::Place;
 use super::search::{Open, OpenPair, Search};
+use super::watch::Watch;
 use crate::bounds::{add, norm, scaled, sub};
 
 /// Boxes beyond this are not gathered: they are all listed.
@@ -45,7 +46,7 @@ fn touch(a: &OpenPair, b: &OpenPair) -> bool {
 }
 
 /// Groups of boxes that touch one another; `None` when there are too many.
-pub fn clusters(search: &Search) -> Option<Vec<Cluster>> {
+pub fn clusters(search: &Search, watch: &Watch) -> Option<Vec<Cluster>> {
     let open = &search.open;
     if open.len() > MOST_BOXES {
         return None;
@@ -59,6 +60,9 @@ pub fn clusters(search: &Search) -> Option<Vec<Cluster>> {
         k
     }
     for i in 0..open.len() {
+        if watch.stops(open.len() - i) {
+            return None;
+        }
         for j in 0..i {
             if touch(&open[i], &open[j]) {
                 let (a, b) = (root(&mut group, i), root(&mut group, j));

@@ -10,6 +10,7 @@
 use super::contact::look;
 use super::join::{Place, Stop, distance_to_chord};
 use super::search::{Open, Search};
+use super::watch::Watch;
 use crate::bounds::{Vector, add, norm, scaled, sub};
 
 /// Looks along a side within one box.
@@ -29,8 +30,9 @@ pub struct Rim {
     pub stop: Stop,
 }
 
-struct Side<'a, 'b> {
+struct Side<'a, 'b, 'w> {
     search: &'a Search<'b>,
+    watch: &'a Watch<'w>,
     /// 0: a side of A; 1: of B.
     own: usize,
     /// The parameter that is fixed there, and its value.
@@ -38,7 +40,7 @@ struct Side<'a, 'b> {
     value: f64,
 }
 
-impl Side<'_, '_> {
+impl Side<'_, '_, '_> {
     fn at(&self, t: f64) -> [f64; 2] {
         if self.fixed == 0 { [self.value, t] } else { [t, self.value] }
     }
@@ -68,7 +70,11 @@ impl Side<'_, '_> {
         samples.sort_by(f64::total_cmp);
         samples.dedup();
         let (mut run, mut last): (Vec<Place>, Option<f64>) = (Vec::new(), None);
-        for t in samples {
+        let count = samples.len();
+        for (k, t) in samples.into_iter().enumerate() {
+            if self.watch.stops(count - k) {
+                return;
+            }
             match self.seen(t, &ranges) {
                 Some(place) => {
                     // Where it began, between the last place that is off and this one.
@@ -134,6 +140,9 @@ impl Side<'_, '_> {
         let mut out = vec![*run.first()?];
         let mut waiting: Vec<Place> = run[1..].iter().rev().copied().collect();
         while let Some(to) = waiting.pop() {
+            if self.watch.stops(waiting.len()) {
+                return None;
+            }
             let from = out[out.len() - 1];
             let middle = self.seen(0.5 * (from.at[r] + to.at[r]), ranges);
             match middle {
@@ -150,7 +159,7 @@ impl Side<'_, '_> {
 }
 
 /// Curves around all areas in which the surfaces of a search coincide.
-pub fn rims(search: &Search, chord: f64) -> Vec<Rim> {
+pub fn rims(search: &Search, chord: f64, watch: &Watch) -> Vec<Rim> {
     if !search.open.iter().any(|pair| pair.why == Open::Area) {
         return Vec::new();
     }
@@ -160,7 +169,7 @@ pub fn rims(search: &Search, chord: f64) -> Vec<Rim> {
         let (domain, collapsed) = (surface.domain(), surface.collapsed_edges());
         let closed = [surface.is_closed_u(), surface.is_closed_v()];
         for side in (0..4).filter(|&side| !closed[side / 2] && !collapsed[side]) {
-            let one = Side { search, own, fixed: side / 2, value: domain[side] };
+            let one = Side { search, watch, own, fixed: side / 2, value: domain[side] };
             let mut found = Vec::new();
             one.rims(chord, &mut found);
             // Where borders of both run together the line is there already.

@@ -14,6 +14,7 @@ use super::arc::{Arc, Clip};
 use super::contact::{into_domain, look, settle};
 use super::pair::{Verdict, judge};
 use super::pieces::{Part, Pieces};
+use super::watch::Watch;
 use crate::bounds::{Aabb, HALF_ULP, Vector, cross, dot, norm, sub};
 use crate::error::Error;
 use crate::surface::Surface;
@@ -111,12 +112,8 @@ impl<'a> Search<'a> {
     /// Judges all pairs, at most `budget`.
     ///
     /// # Errors
-    /// [`Error::Cancelled`] when `poll(judged, waiting)` said so.
-    pub fn run(
-        &mut self,
-        budget: u64,
-        poll: &mut dyn FnMut(u64, u64) -> bool,
-    ) -> Result<(), Error> {
+    /// [`Error::Cancelled`] when the watch said so.
+    pub fn run(&mut self, budget: u64, watch: &Watch) -> Result<(), Error> {
         let mut waiting = self.first_pairs();
         let mut level = 0;
         while !waiting.is_empty() {
@@ -129,7 +126,7 @@ impl<'a> Search<'a> {
                     return Ok(());
                 }
                 if self.judged.is_multiple_of(GROUP)
-                    && poll(self.judged, (waiting.len() - k + next.len()) as u64)
+                    && watch.asks(self.judged, (waiting.len() - k + next.len()) as u64)
                 {
                     return Err(Error::Cancelled);
                 }
