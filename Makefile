@@ -156,7 +156,7 @@ compare-fit: build
 # A library that cannot be had is left out.
 compare-intersect: build
 	$(call need,cmake g++)
-	-$(call need,,$(OCCT_PACKAGES))
+	-$(call need,,$(OCCT_PACKAGES) libocct-visualization-dev)
 	-$(call need,,libcgal-dev)
 	-$(call need,,libsisl-dev)
 	cmake -S compare/intersect -B $(BUILD)/compare-intersect -DFOOTPOINT_LIB="$(abspath $(BUILD))/lib"

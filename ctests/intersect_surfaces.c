@@ -15,6 +15,11 @@ static fpt_intersection_summary summary_of(const fpt_surface_intersection *found
     return out;
 }
 
+static int stop_now(void *user) { return *(int *)user; }
+
+/* Says stop at the question whose number user holds, counted down. */
+static int stop_later(void *user) { return --*(long *)user < 0; }
+
 /* The cone with apex (1,0,3) over the circle of radius 2: at height 1.5 a circle of radius 1, over the cone's seam. */
 static void a_cone_is_cut_in_a_circle_and_its_apex_is_a_contact(void) {
     fpt_surface *cone = make_surface(cone_surface()), *plane = plane_at(1.5);
@@ -45,7 +50,7 @@ static void a_cone_is_cut_in_a_circle_and_its_apex_is_a_contact(void) {
     size_t count = 0;
     fpt_curve *curves[3] = {NULL, NULL, NULL};
     double error = -1, at[3];
-    CHECK_OK(fpt_surface_intersection_curves(found, cone, plane, 0, 1e-6, 0, &count, curves, &error));
+    CHECK_OK(fpt_surface_intersection_curves(found, cone, plane, 0, 1e-6, 0, NULL, &count, curves, &error));
     CHECK(count >= 1 && error >= 0 && error < 1e-6);
     for (int k = 0; k < 3; k++) {
         double ends[2];
@@ -54,9 +59,27 @@ static void a_cone_is_cut_in_a_circle_and_its_apex_is_a_contact(void) {
         CHECK(k == 0 ? fabs(at[2] - 1.5) < 1e-6 : at[2] == 0);
         fpt_curve_free(curves[k]);
     }
-    CHECK(fpt_surface_intersection_curves(found, cone, plane, 0, 0, 0, &count, curves, &error) == FPT_INVALID_ARGUMENT);
-    CHECK(fpt_surface_intersection_curves(found, cone, plane, 0, 1e-6, 99, &count, curves, &error) == FPT_INVALID_ARGUMENT);
-    CHECK(fpt_surface_intersection_curves(found, cone, NULL, 0, 1e-6, 0, &count, curves, &error) == FPT_NULL_ARGUMENT);
+    CHECK(fpt_surface_intersection_curves(found, cone, plane, 0, 0, 0, NULL, &count, curves, &error) == FPT_INVALID_ARGUMENT);
+    CHECK(fpt_surface_intersection_curves(found, cone, plane, 0, 1e-6, 99, NULL, &count, curves, &error) == FPT_INVALID_ARGUMENT);
+    long questions = 1;
+    fpt_intersect_surfaces_options asking;
+    fpt_intersect_surfaces_options_init(&asking, sizeof asking);
+    asking.should_stop = stop_later;
+    asking.user = &questions;
+    curves[0] = NULL;
+    CHECK(fpt_surface_intersection_curves(found, cone, plane, 0, 1e-9, 0, &asking, &count, curves, &error) == FPT_CANCELLED);
+    CHECK(curves[0] == NULL && questions == -1);
+    /* Every question of the intersection itself: also those after the last pair of parts. */
+    fpt_surface_intersection *stopped = NULL;
+    long asked = 0;
+    for (fpt_status status = FPT_CANCELLED; status == FPT_CANCELLED; asked++) {
+        questions = asked;
+        status = fpt_intersect_surfaces(cone, plane, &asking, &stopped);
+        CHECK(status == FPT_CANCELLED ? stopped == NULL : status == FPT_OK && stopped != NULL);
+    }
+    CHECK(asked > (long)(summary_of(stopped).pairs / 256) + 2);
+    fpt_surface_intersection_free(stopped);
+    CHECK(fpt_surface_intersection_curves(found, cone, NULL, 0, 1e-6, 0, NULL, &count, curves, &error) == FPT_NULL_ARGUMENT);
     fpt_surface_intersection_free(found);
     fpt_surface_free(plane);
 
@@ -144,18 +167,28 @@ static void faces_are_cut_off_at_their_trims_and_split(void) {
     CHECK_NEAR(low, 0.1, 1e-11);
     free(points);
     size_t count = 0;
-    CHECK_OK(fpt_surface_intersection_split(found, triangle, 1, 1e-6, 4, parts, &count));
+    CHECK_OK(fpt_surface_intersection_split(found, triangle, 1, 1e-6, NULL, 4, parts, &count));
     CHECK(count == 2);
     for (size_t i = 0; i < count; i++) fpt_trim_free(parts[i]);
     /* The arc ends inside the tube: it cuts nothing there. */
-    CHECK_OK(fpt_surface_intersection_split(found, tube, 0, 1e-6, 4, parts, &count));
+    CHECK_OK(fpt_surface_intersection_split(found, tube, 0, 1e-6, NULL, 4, parts, &count));
     CHECK(count == 1);
     fpt_trim_free(parts[0]);
-    CHECK_ERROR(fpt_surface_intersection_split(found, triangle, 1, 1e-6, 1, parts, &count), FPT_INVALID_ARGUMENT, "capacity");
-    CHECK_ERROR(fpt_surface_intersection_split(found, triangle, 2, 1e-6, 4, parts, &count), FPT_INVALID_ARGUMENT, "which");
-    CHECK_ERROR(fpt_surface_intersection_split(found, triangle, 1, 0, 4, parts, &count), FPT_INVALID_ARGUMENT, "tolerance");
-    CHECK_ERROR(fpt_surface_intersection_split(found, NULL, 1, 1e-6, 4, parts, &count), FPT_NULL_ARGUMENT, "trim");
-    CHECK_ERROR(fpt_surface_intersection_split(NULL, tube, 0, 1e-6, 4, parts, &count), FPT_NULL_ARGUMENT, "intersection");
+    int stop = 1;
+    fpt_intersect_surfaces_options asking;
+    fpt_intersect_surfaces_options_init(&asking, sizeof asking);
+    asking.should_stop = stop_now;
+    asking.user = &stop;
+    CHECK(fpt_surface_intersection_split(found, triangle, 1, 1e-6, &asking, 4, parts, &count) == FPT_CANCELLED);
+    stop = 0;
+    CHECK_OK(fpt_surface_intersection_split(found, triangle, 1, 1e-6, &asking, 4, parts, &count));
+    CHECK(count == 2);
+    for (size_t i = 0; i < count; i++) fpt_trim_free(parts[i]);
+    CHECK_ERROR(fpt_surface_intersection_split(found, triangle, 1, 1e-6, NULL, 1, parts, &count), FPT_INVALID_ARGUMENT, "capacity");
+    CHECK_ERROR(fpt_surface_intersection_split(found, triangle, 2, 1e-6, NULL, 4, parts, &count), FPT_INVALID_ARGUMENT, "which");
+    CHECK_ERROR(fpt_surface_intersection_split(found, triangle, 1, 0, NULL, 4, parts, &count), FPT_INVALID_ARGUMENT, "tolerance");
+    CHECK_ERROR(fpt_surface_intersection_split(found, NULL, 1, 1e-6, NULL, 4, parts, &count), FPT_NULL_ARGUMENT, "trim");
+    CHECK_ERROR(fpt_surface_intersection_split(NULL, tube, 0, 1e-6, NULL, 4, parts, &count), FPT_NULL_ARGUMENT, "intersection");
     fpt_surface_intersection_free(found);
     found = NULL;
     CHECK_ERROR(fpt_intersect_trims(NULL, triangle, NULL, &found), FPT_NULL_ARGUMENT, "a");
@@ -173,8 +206,6 @@ static void faces_are_cut_off_at_their_trims_and_split(void) {
     fpt_support_free(round);
     fpt_surface_free(plane);
 }
-
-static int stop_now(void *user) { return *(int *)user; }
 
 static void count_calls(void *user, size_t done, size_t total) {
     CHECK(done <= total);

@@ -7158,12 +7158,14 @@ fpt_status fpt_surface_intersection_undecided(const struct fpt_surface_intersect
                                               double *out_range);
 
 /**
- * A branch as cubic B-splines in space and in both domains (z = 0), with the same knots. A branch over a seam is cut there.
+ * A branch as cubic B-splines in space and in both domains (z = 0), with the same knots. A branch is cut at seams and corners. Where the fit
+ * misses its tolerance, the error says so, and is not more than that of the chords between the points.
  *
  * @param a, b        the surfaces that the intersection was made of
  * @param index       below branch_count, else FPT_INVALID_ARGUMENT
  * @param tolerance   length, > 0: what the fit aims at
- * @param part        which part between two seams; beyond the count of parts FPT_INVALID_ARGUMENT
+ * @param part        which part between two seams or corners; beyond the count of parts FPT_INVALID_ARGUMENT
+ * @param options     should_stop, progress and user count; NULL: nobody is asked
  * @param out_count   the number of parts
  * @param out_curves  3 handles: in space, in A's domain, in B's domain; release each with fpt_curve_free
  * @param out_error   proven: at equal parameters the curve is nowhere farther from the surface points at its parameters, and so from
@@ -7177,6 +7179,7 @@ fpt_status fpt_surface_intersection_curves(const struct fpt_surface_intersection
                                            size_t index,
                                            double tolerance,
                                            size_t part,
+                                           const struct fpt_intersect_surfaces_options *options,
                                            size_t *out_count,
                                            struct fpt_curve **out_curves,
                                            double *out_error);
@@ -7187,6 +7190,7 @@ fpt_status fpt_surface_intersection_curves(const struct fpt_surface_intersection
  *
  * @param trim       the first (which = 0) or the second (which = 1) face of the intersection
  * @param tolerance  length, > 0: within it ends of branches meet loops and one another
+ * @param options    should_stop, progress and user count; NULL: nobody is asked
  * @param capacity   room in out_trims, at least the number of faces, else FPT_INVALID_ARGUMENT with *out_count set
  * @param out_trims  handles; release each with fpt_trim_free
  * @since 0.1
@@ -7196,6 +7200,7 @@ fpt_status fpt_surface_intersection_split(const struct fpt_surface_intersection 
                                           const struct fpt_trim *trim,
                                           uint32_t which,
                                           double tolerance,
+                                          const struct fpt_intersect_surfaces_options *options,
                                           size_t capacity,
                                           struct fpt_trim **out_trims,
                                           size_t *out_count);

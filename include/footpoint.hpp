@@ -2297,21 +2297,23 @@ public:
         return out;
     }
     /** As fpt_surface_intersection_curves. */
-    branch_curves curves(const surface &a, const surface &b, std::size_t index, double tolerance, std::size_t part = 0) const {
+    branch_curves curves(const surface &a, const surface &b, std::size_t index, double tolerance, std::size_t part = 0,
+                         const fpt_intersect_surfaces_options *options = nullptr) const {
         fpt_curve *out[3] = {nullptr, nullptr, nullptr};
         std::size_t count = 0;
         double error = 0;
-        check(fpt_surface_intersection_curves(get(), a.get(), b.get(), index, tolerance, part, &count, out, &error));
+        check(fpt_surface_intersection_curves(get(), a.get(), b.get(), index, tolerance, part, options, &count, out, &error));
         return {curve(out[0]), curve(out[1]), curve(out[2]), error, count};
     }
     /** As fpt_surface_intersection_split. */
-    std::vector<trimmed_surface> split(const trimmed_surface &face, std::uint32_t which, double tolerance) const {
+    std::vector<trimmed_surface> split(const trimmed_surface &face, std::uint32_t which, double tolerance,
+                                       const fpt_intersect_surfaces_options *options = nullptr) const {
         std::vector<fpt_trim *> out(16);
         std::size_t count = 0;
-        fpt_status status = fpt_surface_intersection_split(get(), face.get(), which, tolerance, out.size(), out.data(), &count);
+        fpt_status status = fpt_surface_intersection_split(get(), face.get(), which, tolerance, options, out.size(), out.data(), &count);
         if (status == FPT_INVALID_ARGUMENT && count > out.size()) {
             out.resize(count);
-            status = fpt_surface_intersection_split(get(), face.get(), which, tolerance, out.size(), out.data(), &count);
+            status = fpt_surface_intersection_split(get(), face.get(), which, tolerance, options, out.size(), out.data(), &count);
         }
         check(status);
         std::vector<trimmed_surface> parts;

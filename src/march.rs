@@ -15,6 +15,8 @@
 //! Faces, elementary surfaces and surfaces given by functions: [`faces`]. Limits: two arcs that run on both sides of a knot line at a distance below
 //! the rounding are one.
 
+mod watch;
+
 mod bends;
 
 mod pieces;
@@ -49,6 +51,8 @@ pub mod bisect;
 
 pub mod triangles;
 
+mod corners;
+
 pub mod curves;
 
 mod functions;
@@ -68,8 +72,9 @@ use cluster::clusters;
 use join::Joiner;
 pub use join::distance_to_chord;
 use overlap::rims;
-use search::{Halt, Open, Search};
+use search::{Open, Search};
 use tangent::ridges;
+use watch::Watch;
 
 /// Pairs of parts that are judged at most, when the caller does not say.
 pub const DEFAULT_BUDGET: u64 = 2_000_000;
@@ -267,8 +272,8 @@ impl Frames {
     }
 }
 
-/// All that two surfaces have in common. `poll(judged, waiting)` is asked now and then whether to stop; once the search has ended and
-/// its finds are put together, with nothing waiting.
+/// All that two surfaces have in common. `poll(judged, waiting)` is asked now and then whether to stop, while pairs are judged and in
+/// every phase after that.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for a length that is negative or not finite; [`Error::Unsupported`] for a surface that is a point;
@@ -285,28 +290,32 @@ pub fn intersect(
     let chord = if options.chord > 0.0 { options.chord * frames.scale } else { 1e-3 };
     let mut search = Search::new([sa, sb], frames.noise);
     let budget = if options.budget > 0 { options.budget } else { DEFAULT_BUDGET };
-    search.run(budget, poll)?;
-    let halt = &mut Halt::new(search.judged, poll);
-    let (chains, points) = Joiner::new(&search, chord).chains(halt)?;
-    let ridges = ridges(&search, chord, halt)?;
+    let watch = Watch::new(poll);
+    search.run(budget, &watch)?;
+    let (chains, points) = Joiner::new(&search, chord, &watch).chains();
+    watch.checked()?;
+    let ridges = ridges(&search, chord, &watch);
+    watch.checked()?;
     let mut made =
         Maker { a: a.surface(), b: b.surface(), search: &search, out: Intersection::default() };
     made.out.judged = search.judged;
     made.out.exhausted = search.open.iter().any(|pair| pair.why == Open::Budget);
     for &tip in &search.tips {
-        halt.ask()?;
+        watch.stops(0);
         made.tip(tip, [a, b]);
     }
-    let groups = clusters(&search, halt)?;
+    let groups = clusters(&search, &watch);
+    watch.checked()?;
     match &groups {
-        Some(groups) => made.classify(groups, &ridges, halt)?,
+        Some(groups) => made.classify(groups, &ridges, &watch),
         None => {
             made.out.undecided =
                 search.open.iter().map(|pair| region(pair.low, pair.high)).collect()
         }
     }
+    watch.checked()?;
     for place in points {
-        let place = made.point(&place);
+        let place = made.point(place);
         made.out.contacts.push(Contact {
             place,
             kind: ContactKind::Border,
@@ -316,22 +325,23 @@ pub fn intersect(
         });
     }
     for chain in chains {
-        halt.ask()?;
+        watch.stops(0);
         let bounds = (chain.chord / frames.scale, chain.bulge, chain.held);
-        made.push(chain.places, chain.stops, Some(bounds));
+        made.push(chain.places.into_iter(), chain.stops, Some(bounds));
     }
     for ridge in ridges {
-        halt.ask()?;
-        made.push(ridge.places, ridge.stops, None);
+        made.push(ridge.places.iter().map(|place| place.at), ridge.stops, None);
     }
     made.join_at_tips();
     made.swallow();
-    for rim in rims(&search, chord, halt)? {
-        made.push(rim.places, [rim.stop; 2], None);
+    watch.checked()?;
+    for rim in rims(&search, chord, &watch) {
+        made.push(rim.places.iter().map(|place| place.at), [rim.stop; 2], None);
         if let Some(branch) = made.out.branches.last_mut() {
             branch.bounds_overlap = true;
         }
     }
+    watch.checked()?;
     made.out.is_proven = settled(&made.out);
     Ok(made.out)
 }

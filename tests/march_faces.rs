@@ -95,7 +95,9 @@ fn a_trim_along_the_curve_is_kept_and_listed() {
         .iter()
         .flat_map(|b| b.points.windows(2).map(|w| norm(sub(w[1].point, w[0].point))))
         .sum();
-    assert!(length <= TAU * 0.91f64.sqrt() + 1e-9);
+    // Chords are shorter than the circle, by less than their allowance of 1e-3 of the size lets them be.
+    let circle = TAU * 0.91f64.sqrt();
+    assert!((0.99 * circle..=circle + 1e-9).contains(&length), "{length} of {circle}");
 }
 
 #[test]
@@ -161,7 +163,7 @@ fn area(face: &TrimmedSurface) -> f64 {
 fn cuts(a: &IndexedSurface, b: &IndexedSurface, found: &Intersection, second: bool) -> Vec<Cut> {
     let mut all = Vec::new();
     for branch in &found.branches {
-        for part in curves(a, b, &branch.points, 1e-4).unwrap() {
+        for part in curves(a, b, &branch.points, 1e-4, &mut |_, _| false).unwrap() {
             let plane: Curve = if second { part.st } else { part.uv };
             all.push(Cut { pcurve: Pcurve::spline(plane).unwrap(), edge: Some(part.space) });
         }
@@ -176,7 +178,7 @@ fn faces_are_split_by_what_they_have_in_common() {
     let (a, b) = (IndexedSurface::new(ball.clone()), IndexedSurface::new(sheet.clone()));
     let (fa, fb) = (whole(ball), whole(sheet));
     let found = meet(&fa, &fb);
-    let parts = split(&fb, &cuts(&a, &b, &found, true), 1e-6).unwrap().faces;
+    let parts = split(&fb, &cuts(&a, &b, &found, true), 1e-6, &mut |_, _| false).unwrap().faces;
     assert_eq!(parts.len(), 2);
     let mut areas: Vec<f64> = parts.iter().map(area).collect();
     areas.sort_by(f64::total_cmp);
@@ -188,7 +190,7 @@ fn faces_are_split_by_what_they_have_in_common() {
         assert!(report.is_valid(), "{report:?}");
     }
     println!("two reports: {:?}", begin.elapsed());
-    let parts = split(&fa, &cuts(&a, &b, &found, false), 1e-6).unwrap().faces;
+    let parts = split(&fa, &cuts(&a, &b, &found, false), 1e-6, &mut |_, _| false).unwrap().faces;
     assert_eq!(parts.len(), 2);
     for part in &parts {
         let report = part.report(1e-3).unwrap();
@@ -203,12 +205,13 @@ fn faces_are_split_by_what_they_have_in_common() {
     let (fa, fb) = (whole(tube), whole(upright));
     let found = meet(&fa, &fb);
     assert_eq!(found.branches.len(), 2);
-    let parts = split(&fa, &cuts(&a, &b, &found, false), 1e-6).unwrap().faces;
+    let parts = split(&fa, &cuts(&a, &b, &found, false), 1e-6, &mut |_, _| false).unwrap().faces;
     assert_eq!(parts.len(), 3);
     assert!((parts.iter().map(area).sum::<f64>() - 1.0).abs() < 1e-9);
-    assert!(split(&fa, &[], 0.0).is_err());
+    assert!(split(&fa, &[], 0.0, &mut |_, _| false).is_err());
     let inside = Pcurve::polyline(&[[0.4, 0.4], [0.6, 0.6]]).unwrap();
-    let unused = split(&fa, &[Cut { pcurve: inside, edge: None }], 1e-6).unwrap();
+    let unused =
+        split(&fa, &[Cut { pcurve: inside, edge: None }], 1e-6, &mut |_, _| false).unwrap();
     assert_eq!((unused.faces.len(), unused.unused), (1, vec![0]));
     // The polylines of the branches do as well, also in the angles of an elementary support.
     let axes = Axes::around([0.0; 3], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]).unwrap();
@@ -216,7 +219,7 @@ fn faces_are_split_by_what_they_have_in_common() {
         ElementarySurface::new(Elementary::Cylinder { axes, radius: 1.0 }, [0.0, TAU, -2.0, 2.0]);
     let tube = TrimmedSurface::whole(tube.unwrap().into()).unwrap();
     let found = meet(&tube, &fb);
-    let split = split(&tube, &cuts_of(&found, false).unwrap(), 1e-6).unwrap();
+    let split = split(&tube, &cuts_of(&found, false).unwrap(), 1e-6, &mut |_, _| false).unwrap();
     assert_eq!((split.faces.len(), split.unused.len()), (3, 0));
     assert!((split.faces.iter().map(area).sum::<f64>() - 4.0 * TAU).abs() < 1e-9);
     for part in &split.faces {

@@ -88,6 +88,54 @@ fn correctors_end_on_both_surfaces_in_few_steps() {
     }
 }
 
+/// Steps as the papers count them: until the gap is within the tolerance, without the step that confirms it; from places as marching makes
+/// them, straight on along the last chord.
+#[test]
+fn from_marching_starts_correctors_take_two_or_three_steps() {
+    let (a, b) = pair();
+    let [x, y] = [&a, &b].map(|s| IndexedSurface::new(s.clone()));
+    let mut starts = Vec::new();
+    for branch in intersect(&x, &y, &MarchOptions::default(), &mut |_, _| false).unwrap().branches {
+        for w in branch.points.windows(3) {
+            let [p, q, r] = [w[0], w[1], w[2]].map(|p| [p.uv[0], p.uv[1], p.st[0], p.st[1]]);
+            let length = |i: usize| {
+                let by = |k: usize| (w[i + 1].point[k] - w[i].point[k]).powi(2);
+                (0..3).map(by).sum::<f64>().sqrt()
+            };
+            let share = length(1) / length(0);
+            let ahead = [0, 1, 2, 3].map(|k| q[k] + share * (q[k] - p[k]));
+            // Not over a seam, where parameters jump.
+            let is_near = (0..4).all(|k| (ahead[k] - r[k]).abs() < 0.1);
+            if is_near && ahead.iter().all(|x| (0.0..=1.0).contains(x)) {
+                starts.push(ahead);
+            }
+        }
+    }
+    assert!(starts.len() > 40, "{}", starts.len());
+    for method in [Corrector::NewtonFour, Corrector::Maf] {
+        for tolerance in [1e-6, 1e-12] {
+            let (mut all, mut most) = (0, 0);
+            for &start in &starts {
+                let mut first = None;
+                let mut trace = |step: u32, _: [f64; 4], gap: f64| {
+                    if gap <= tolerance && first.is_none() {
+                        first = Some(step);
+                    }
+                };
+                assert!(correct(&a, &b, start, method, tolerance, Some(&mut trace)).is_some());
+                let steps = first.unwrap();
+                (all, most) = (all + steps, most.max(steps));
+            }
+            let mean = f64::from(all) / starts.len() as f64;
+            println!(
+                "{method:?}, {tolerance:e}: {mean:.2} steps, {most} at most, {} starts",
+                starts.len()
+            );
+            assert!(mean <= 3.0, "{method:?}: {mean}");
+        }
+    }
+}
+
 #[test]
 fn a_held_isoline_that_misses_the_curve_is_a_failure_and_a_border_is_kept() {
     // The loop around a bump: u beyond it never meets the lid.
@@ -193,7 +241,7 @@ fn curves_of_a_branch_agree_and_fewer_points_keep_the_chord() {
             (few[0], few[few.len() - 1]),
             (branch.points[0], branch.points[branch.points.len() - 1])
         );
-        let parts = curves(&a, &b, &branch.points, 1e-6).unwrap();
+        let parts = curves(&a, &b, &branch.points, 1e-6, &mut |_, _| false).unwrap();
         assert!(!parts.is_empty());
         for part in &parts {
             assert!(part.error <= 1e-6, "{:e}", part.error);
@@ -210,8 +258,8 @@ fn curves_of_a_branch_agree_and_fewer_points_keep_the_chord() {
             }
         }
         assert!(
-            curves(&a, &b, &branch.points, 0.0).is_err()
-                && curves(&a, &b, &branch.points[..1], 1e-6).is_err()
+            curves(&a, &b, &branch.points, 0.0, &mut |_, _| false).is_err()
+                && curves(&a, &b, &branch.points[..1], 1e-6, &mut |_, _| false).is_err()
         );
     }
 }
@@ -397,7 +445,7 @@ fn a_fit_is_proven_and_a_fairer_one_stays_near_both_surfaces() {
     let found = intersect(&a, &b, &MarchOptions::default(), &mut |_, _| false).unwrap();
     for tolerance in [1e-4, 1e-7] {
         for branch in &found.branches {
-            for part in curves(&a, &b, &branch.points, tolerance).unwrap() {
+            for part in curves(&a, &b, &branch.points, tolerance, &mut |_, _| false).unwrap() {
                 assert!(part.error <= tolerance, "{:e} for {tolerance:e}", part.error);
                 let (low, high) = part.space.domain();
                 for n in 0..=300 {

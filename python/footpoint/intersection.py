@@ -132,7 +132,7 @@ class Intersection:
         return boxes
 
     def curves(self, branch: int, tolerance: float) -> list[BranchCurves]:
-        """A branch as cubic B-splines in space and in both domains (z = 0): one set for each part between two seams. Of surfaces only.
+        """A branch as cubic B-splines in space and in both domains (z = 0): one set for each part between two seams or corners. Of surfaces only.
 
         Smoother by energy: `footpoint.fair.curve(part.space, deviation)`; the deviation that it proves adds to `error`.
 
@@ -146,7 +146,7 @@ class Intersection:
         while len(parts) < count.value:
             out = (ctypes.c_void_p * 3)()
             lib.call("surface_intersection_curves", self._handle, a._handle, b._handle, branch, real("tolerance", tolerance), len(parts),
-                     ctypes.byref(count), ctypes.addressof(out), ctypes.byref(error))
+                     None, ctypes.byref(count), ctypes.addressof(out), ctypes.byref(error))
             parts.append(BranchCurves(*(_owned(handle) for handle in out), error.value))
         return parts
 
@@ -160,7 +160,7 @@ class Intersection:
             raise TypeError("split: the intersection is one of surfaces; make faces of them with TrimmedSurface.whole")
         room = 2 + sum(len(loop.coedges) for loop in face.loops) + 4 * sum(len(branch.points) for branch in self.branches)
         out, count = (ctypes.c_void_p * room)(), ctypes.c_size_t()
-        lib.call("surface_intersection_split", self._handle, face._handle, which, real("tolerance", tolerance), room,
+        lib.call("surface_intersection_split", self._handle, face._handle, which, real("tolerance", tolerance), None, room,
                  ctypes.addressof(out), ctypes.byref(count))
         return [_owner(TrimmedSurface, out[k]) for k in range(count.value)]
 

@@ -457,12 +457,14 @@ pub unsafe extern "C" fn fpt_surface_intersection_undecided(
     })
 }
 
-/// A branch as cubic B-splines in space and in both domains (z = 0), with the same knots. A branch over a seam is cut there.
+/// A branch as cubic B-splines in space and in both domains (z = 0), with the same knots. A branch is cut at seams and corners. Where the fit
+/// misses its tolerance, the error says so, and is not more than that of the chords between the points.
 ///
 /// @param a, b        the surfaces that the intersection was made of
 /// @param index       below branch_count, else FPT_INVALID_ARGUMENT
 /// @param tolerance   length, > 0: what the fit aims at
-/// @param part        which part between two seams; beyond the count of parts FPT_INVALID_ARGUMENT
+/// @param part        which part between two seams or corners; beyond the count of parts FPT_INVALID_ARGUMENT
+/// @param options     should_stop, progress and user count; NULL: nobody is asked
 /// @param out_count   the number of parts
 /// @param out_curves  3 handles: in space, in A's domain, in B's domain; release each with fpt_curve_free
 /// @param out_error   proven: at equal parameters the curve is nowhere farther from the surface points at its parameters, and so from
@@ -477,6 +479,7 @@ pub unsafe extern "C" fn fpt_surface_intersection_curves(
     index: usize,
     tolerance: f64,
     part: usize,
+    options: *const fpt_intersect_surfaces_options,
     out_count: *mut usize,
     out_curves: *mut *mut fpt_curve,
     out_error: *mut f64,
@@ -487,7 +490,10 @@ pub unsafe extern "C" fn fpt_surface_intersection_curves(
         let (a, b) = (surface::indexed_as("a", a)?, surface::indexed_as("b", b)?);
         let (count, error) = (place("out_count", out_count)?, place("out_error", out_error)?);
         let out = output("out_curves", out_curves, 3)?;
-        let mut parts = curves(a, b, &branch.points, tolerance)?;
+        let (_, callbacks) = asked(options)?;
+        let mut parts = curves(a, b, &branch.points, tolerance, &mut |done, left| {
+            callbacks.poll(done as usize, (done + left) as usize)
+        })?;
         if part >= parts.len() {
             let text = format!("part: {part} is not below the count of {}", parts.len());
             return Err(Failure::invalid(text));
@@ -505,6 +511,7 @@ pub unsafe extern "C" fn fpt_surface_intersection_curves(
 ///
 /// @param trim       the first (which = 0) or the second (which = 1) face of the intersection
 /// @param tolerance  length, > 0: within it ends of branches meet loops and one another
+/// @param options    should_stop, progress and user count; NULL: nobody is asked
 /// @param capacity   room in out_trims, at least the number of faces, else FPT_INVALID_ARGUMENT with *out_count set
 /// @param out_trims  handles; release each with fpt_trim_free
 /// @since 0.1
@@ -515,6 +522,7 @@ pub unsafe extern "C" fn fpt_surface_intersection_split(
     trim: *const fpt_trim,
     which: u32,
     tolerance: f64,
+    options: *const fpt_intersect_surfaces_options,
     capacity: usize,
     out_trims: *mut *mut fpt_trim,
     out_count: *mut usize,
@@ -527,7 +535,11 @@ pub unsafe extern "C" fn fpt_surface_intersection_split(
             return Err(Failure::invalid(format!("which: {which} is not 0 or 1")));
         }
         let count = place("out_count", out_count)?;
-        let faces = split(face, &cuts_of(found, which == 1)?, tolerance)?.faces;
+        let (_, callbacks) = asked(options)?;
+        let faces = split(face, &cuts_of(found, which == 1)?, tolerance, &mut |done, left| {
+            callbacks.poll(done as usize, (done + left) as usize)
+        })?
+        .faces;
         *count = faces.len();
         if capacity < faces.len() {
             let text = format!("capacity: {capacity} given, {} faces", faces.len());

@@ -12,7 +12,7 @@
 use super::bends::{Bends, REACH};
 use super::pieces::Pieces;
 use super::system::{inverse, others, system};
-use crate::bounds::{Vector, dot, norm, scaled};
+use crate::bounds::{Vector, dot, norm, scaled, sub};
 
 /// What is left of the estimates for rounding of nodes.
 const CARE: f64 = 1.0 + 1e-4;
@@ -20,6 +20,10 @@ const CARE: f64 = 1.0 + 1e-4;
 /// Newton's steps, in half widths, below which a node is good enough (its square is what is left), and a solution is.
 const NODE: f64 = 1e-5;
 const SOLUTION: f64 = 1e-8;
+
+/// Below such a step the inverse is kept; and the product of it and a step after which what is left is below the last digits.
+const FROZEN: f64 = 1e-3;
+const LAST: f64 = 1e-15;
 
 /// Steps of Newton at most.
 const MOST_STEPS: u32 = 12;
@@ -145,6 +149,27 @@ fn newton(
         // falling at what the last digits are worth.
         if moved < enough {
             return Some((y, columns, OFF));
+        }
+        // The inverse is good for the rest: its error is to the step as the step is to the reach.
+        if moved < FROZEN && enough < NODE {
+            let mut share = moved;
+            for _ in 0..3 {
+                let z = unit((middle, half), k, x, y);
+                let [p, q] = [0, 1].map(|side| {
+                    pieces[side].position(patches[side], [z[2 * side], z[2 * side + 1]])
+                });
+                let f = sub(p, q);
+                let step = rows.map(|r| dot(r, f));
+                let next = step.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+                if next.is_nan() || next > share {
+                    break;
+                }
+                (0..3).for_each(|i| y[i] -= step[i]);
+                if moved * next < LAST {
+                    return Some((y, columns, OFF));
+                }
+                share = next;
+            }
         }
         if (moved < 1e-3 && moved >= last) || (n == MOST_STEPS && moved < 1e-6) {
             return Some((y, columns, OFF + 4.0 * moved));

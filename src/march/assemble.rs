@@ -1,13 +1,13 @@
 //! The result in the caller's frame: chains become branches, what was left open becomes contacts, areas and undecided boxes.
 
 use super::cluster::{Cluster, see};
-use super::join::{Place, Stop, distance_to_chord};
-use super::search::{Halt, Open, Search};
+use super::join::{Stop, distance_to_chord};
+use super::search::{Open, Search};
 use super::tangent::{Ridge, is_near, unfollowed};
+use super::watch::Watch;
 use super::{Branch, Contact, ContactKind, End, Intersection, MarchPoint, Region};
 use crate::bounds::{norm, sub};
 use crate::closest::{QueryOptions, Workspace};
-use crate::error::Error;
 use crate::index::IndexedSurface;
 use crate::surface::Surface;
 
@@ -35,15 +35,16 @@ pub struct Maker<'a, 'b> {
 }
 
 impl<'a, 'b> Maker<'a, 'b> {
-    /// A place in the frame of the caller.
-    pub fn point(&self, place: &Place) -> MarchPoint {
-        let [u, v, s, t] = place.at;
+    /// A place u, v, s, t in the frame of the caller, and the distance of its two surface points.
+    fn measured(&self, [u, v, s, t]: [f64; 4]) -> (MarchPoint, f64) {
         let (x, y) = (self.a.evaluate(u, v), self.b.evaluate(s, t));
-        MarchPoint {
-            point: std::array::from_fn(|k| x[k] + 0.5 * (y[k] - x[k])),
-            uv: [u, v],
-            st: [s, t],
-        }
+        let point = std::array::from_fn(|k| x[k] + 0.5 * (y[k] - x[k]));
+        (MarchPoint { point, uv: [u, v], st: [s, t] }, norm(sub(x, y)))
+    }
+
+    /// A place u, v, s, t in the frame of the caller.
+    pub fn point(&self, at: [f64; 4]) -> MarchPoint {
+        self.measured(at).0
     }
 
     /// Distance of its two surface points.
@@ -53,21 +54,16 @@ impl<'a, 'b> Maker<'a, 'b> {
     }
 
     /// What is in the groups of boxes that were not divided further.
-    ///
-    /// # Errors
-    /// [`Error::Cancelled`].
-    pub fn classify(
-        &mut self,
-        groups: &[Cluster],
-        ridges: &[Ridge],
-        halt: &mut Halt,
-    ) -> Result<(), Error> {
+    pub fn classify(&mut self, groups: &[Cluster], ridges: &[Ridge], watch: &Watch) {
         for pair in self.search.open.iter().filter(|pair| pair.why == Open::Area) {
             self.out.overlaps.push(region(pair.low, pair.high));
         }
         let beside = unfollowed(self.search, ridges);
-        for group in groups {
-            halt.ask()?;
+        for (k, group) in groups.iter().enumerate() {
+            // One is a search for a place of least gap.
+            if watch.stops(groups.len() - k) {
+                return;
+            }
             let [area, curve, flat, budget] = group.has;
             let is_followed = !beside.iter().any(|&at| group.holds(at));
             if area || (curve && !flat && !budget && is_followed) {
@@ -85,7 +81,7 @@ impl<'a, 'b> Maker<'a, 'b> {
                     }) {
                         continue;
                     }
-                    let place = self.point(&seen.place);
+                    let place = self.point(seen.place.at);
                     let kind = match seen.sign {
                         1 => ContactKind::Touching,
                         -1 => ContactKind::Crossing,
@@ -107,7 +103,6 @@ impl<'a, 'b> Maker<'a, 'b> {
                 _ => self.out.undecided.push(region(group.low, group.high)),
             }
         }
-        Ok(())
     }
 
     /// What lengths of the caller were multiplied by.
@@ -136,7 +131,7 @@ impl<'a, 'b> Maker<'a, 'b> {
         }
         let other = [foot.u, foot.v];
         let (uv, st) = if whose == 0 { (at, other) } else { (other, at) };
-        let place = self.point(&Place { x: [0.0; 3], at: [uv[0], uv[1], st[0], st[1]] });
+        let place = self.point([uv[0], uv[1], st[0], st[1]]);
         let known =
             self.out.contacts.iter().any(|c| norm(sub(c.place.point, place.point)) <= 2.0 * size);
         if !known {
@@ -268,14 +263,20 @@ impl<'a, 'b> Maker<'a, 'b> {
     /// `bounds`: chord, bulge and held parameters of a transversal branch.
     pub fn push(
         &mut self,
-        places: Vec<Place>,
+        places: impl Iterator<Item = [f64; 4]>,
         stops: [Stop; 2],
         bounds: Option<(f64, [f64; 4], Vec<u8>)>,
     ) {
         let is_tangential = bounds.is_none();
         let (chord, bulge, mut held) =
             bounds.unwrap_or((f64::INFINITY, [f64::INFINITY; 4], Vec::new()));
-        let mut points: Vec<MarchPoint> = places.iter().map(|place| self.point(place)).collect();
+        let mut gap = 0.0f64;
+        let of = |at: [f64; 4]| {
+            let (point, apart) = self.measured(at);
+            gap = gap.max(apart);
+            point
+        };
+        let mut points: Vec<MarchPoint> = places.map(of).collect();
         let mut ends = [End::Undecided; 2];
         for k in 0..2 {
             ends[k] = match stops[k] {
@@ -285,7 +286,8 @@ impl<'a, 'b> Maker<'a, 'b> {
                     let at = if k == 0 { points[0] } else { points[points.len() - 1] };
                     match self.contact_near(&at) {
                         Some(contact) => {
-                            let place = self.out.contacts[contact].place;
+                            let Contact { place, gap: apart, .. } = self.out.contacts[contact];
+                            gap = gap.max(apart);
                             if k == 0 {
                                 points.insert(0, place);
                                 held.insert(0, Branch::ANY);
@@ -307,7 +309,6 @@ impl<'a, 'b> Maker<'a, 'b> {
                 ends = [End::Closed; 2];
             }
         }
-        let gap = points.iter().fold(0.0f64, |m, p| m.max(self.gap(p)));
         self.out.branches.push(Branch {
             points,
             ends,

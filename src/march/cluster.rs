@@ -2,15 +2,12 @@
 
 use super::contact::{foot, settle};
 use super::join::Place;
-use super::search::{Halt, Open, OpenPair, Search};
+use super::search::{Open, OpenPair, Search};
+use super::watch::Watch;
 use crate::bounds::{add, norm, scaled, sub};
-use crate::error::Error;
 
 /// Boxes beyond this are not gathered: they are all listed.
 const MOST_BOXES: usize = 6_000;
-
-/// Boxes between two looks at whether to stop.
-const GROUP: usize = 64;
 
 /// A group of boxes that touch.
 pub struct Cluster {
@@ -48,14 +45,11 @@ fn touch(a: &OpenPair, b: &OpenPair) -> bool {
     })
 }
 
-/// Groups of boxes that touch one another; `None` when there are too many. `halt` is asked now and then whether to stop.
-///
-/// # Errors
-/// [`Error::Cancelled`].
-pub fn clusters(search: &Search, halt: &mut Halt) -> Result<Option<Vec<Cluster>>, Error> {
+/// Groups of boxes that touch one another; `None` when there are too many.
+pub fn clusters(search: &Search, watch: &Watch) -> Option<Vec<Cluster>> {
     let open = &search.open;
     if open.len() > MOST_BOXES {
-        return Ok(None);
+        return None;
     }
     let mut group: Vec<usize> = (0..open.len()).collect();
     fn root(group: &mut [usize], mut k: usize) -> usize {
@@ -66,8 +60,8 @@ pub fn clusters(search: &Search, halt: &mut Halt) -> Result<Option<Vec<Cluster>>
         k
     }
     for i in 0..open.len() {
-        if i.is_multiple_of(GROUP) {
-            halt.ask()?;
+        if watch.stops(open.len() - i) {
+            return None;
         }
         for j in 0..i {
             if touch(&open[i], &open[j]) {
@@ -103,7 +97,6 @@ pub fn clusters(search: &Search, halt: &mut Halt) -> Result<Option<Vec<Cluster>>
         cluster.size = cluster.size.max(open[k].size);
     }
     for cluster in &mut found {
-        halt.ask()?;
         let (low, high) = (cluster.low, cluster.high);
         let extent = |k: usize| {
             let at = |q: usize, high_end: bool| if high_end { high[q] } else { low[q] };
@@ -116,7 +109,7 @@ pub fn clusters(search: &Search, halt: &mut Halt) -> Result<Option<Vec<Cluster>>
         };
         cluster.size = cluster.size.max(extent(0).min(extent(1)));
     }
-    Ok(Some(found))
+    Some(found)
 }
 
 /// The place of least gap in a small cluster, when the surfaces meet there but for rounding.

@@ -18,6 +18,9 @@ use crate::bounds::{Vector, add, cross, dot, norm, scaled, sub};
 /// Steps after which an iteration counts as failed.
 const MOST_STEPS: u32 = 50;
 
+/// A step to a border, in steps that do without: the border runs along the curve, if it takes more.
+const ALONG: f64 = 64.0;
+
 /// The method of a correction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Corrector {
@@ -142,20 +145,29 @@ fn newton(a: &dyn Shape, b: &dyn Shape, at: [f64; 4], held: Option<usize>) -> Op
     let ends = [[da[0], da[1]], [da[2], da[3]], [db[0], db[1]], [db[2], db[3]]];
     let leaves = |x: f64, k: usize| x < ends[k][0] || x > ends[k][1];
     let out = (0..4).find(|&k| leaves(at[k] + step[k], k));
+    let length = |step: &[f64; 4]| {
+        let of =
+            |k: usize| norm(add(scaled(columns[k], step[k]), scaled(columns[k + 1], step[k + 1])));
+        of(0).max(of(2))
+    };
+    let free = length(&step);
     let step = match out {
         // The border that is met holds its parameter; the others meet it there.
         Some(k) if held.is_none() => {
             let border = (at[k] + step[k]).clamp(ends[k][0], ends[k][1]);
             let moved = border - at[k];
             let o = others(k);
-            let rows = inverse(o.map(|c| columns[c]))?;
             let f = add(f, scaled(columns[k], moved));
-            let mut step = [0.0; 4];
-            step[k] = moved;
-            for i in 0..3 {
-                step[o[i]] = -dot(rows[i], f);
-            }
-            step
+            let held = inverse(o.map(|c| columns[c])).map(|rows| {
+                let mut step = [0.0; 4];
+                step[k] = moved;
+                for i in 0..3 {
+                    step[o[i]] = -dot(rows[i], f);
+                }
+                step
+            });
+            // A curve that runs along the border leaves it by rounding alone, and the border does not cut it anywhere.
+            held.filter(|held| length(held) <= ALONG * free).unwrap_or(step)
         }
         _ => step,
     };

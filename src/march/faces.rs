@@ -13,6 +13,7 @@ use super::border::Border;
 use super::correct::{Corrector, correct};
 use super::functions::walked;
 use super::shape::Shape;
+use super::watch::Watch;
 use super::{Branch, Contact, End, Intersection, MarchOptions, MarchPoint, Region as Area};
 use super::{intersect, settled};
 use crate::bounds::{add, norm, scaled, sub};
@@ -128,20 +129,21 @@ struct Piece {
     jump: bool,
 }
 
-struct Cutter<'a> {
+struct Cutter<'a, 'w> {
     halves: [Half<'a>; 2],
     memory: Halving,
     point: f64,
     pieces: Vec<Piece>,
     undecided: Vec<Area>,
     unproven: bool,
+    watch: &'a Watch<'w>,
 }
 
 fn parameters(p: &MarchPoint) -> [f64; 4] {
     [p.uv[0], p.uv[1], p.st[0], p.st[1]]
 }
 
-impl Cutter<'_> {
+impl Cutter<'_, '_> {
     /// A place of both surfaces between two points, at the middle of parameter `k`.
     fn between(&self, from: &MarchPoint, to: &MarchPoint, k: usize) -> Option<MarchPoint> {
         let (p, q) = (parameters(from), parameters(to));
@@ -176,7 +178,7 @@ impl Cutter<'_> {
         };
         let known = !matches!(label, Label::Unknown(_));
         let small = norm(sub(to.point, from.point)) <= self.point;
-        if known || small || self.pieces.len() >= MOST_PIECES {
+        if known || small || self.pieces.len() >= MOST_PIECES || self.watch.stops(0) {
             self.pieces.push(Piece { from, to, label, jump });
             return;
         }
@@ -203,6 +205,9 @@ impl Cutter<'_> {
         self.pieces.clear();
         let mut jump = false;
         for (i, pair) in branch.points.windows(2).enumerate() {
+            if self.watch.stops(branch.points.len() - i) {
+                return;
+            }
             let (from, to) = (pair[0], pair[1]);
             let k = branch.held.get(i).copied();
             if k == Some(Branch::JUMP) {
@@ -352,6 +357,7 @@ pub fn intersect_faces(
         (Some(a), Some(b)) => intersect(a, b, options, poll)?,
         _ => walked(halves[0].shape, halves[1].shape, options.checked()?.chord, poll)?,
     };
+    let watch = Watch::new(poll);
     let size = |face: &TrimmedSurface| face.support().bounding_box().map(|b| b.diagonal());
     let point = POINT * size(a)?.min(size(b)?);
     let mut cutter = Cutter {
@@ -361,15 +367,18 @@ pub fn intersect_faces(
         pieces: Vec::new(),
         undecided: Vec::new(),
         unproven: false,
+        watch: &watch,
     };
     let mut branches = Vec::new();
     for branch in &found.branches {
         cutter.cut(branch, &mut branches);
+        watch.checked()?;
     }
     // Contacts that both faces hold, and those in which a branch ends.
     let mut number = vec![None; found.contacts.len()];
     let mut contacts: Vec<Contact> = Vec::new();
     for (k, contact) in found.contacts.iter().enumerate() {
+        watch.stops(found.contacts.len() - k);
         let ends = |branch: &Branch| branch.ends.contains(&End::Contact(k));
         if branches.iter().any(ends) || cutter.holds(&contact.place) {
             number[k] = Some(contacts.len());
@@ -390,8 +399,9 @@ pub fn intersect_faces(
     contacts.iter_mut().for_each(|contact| cutter.mapped(&mut contact.place));
     let mut out = Intersection { branches, contacts, ..found.clone() };
     let (mut overlaps, mut undecided) = (found.overlaps, found.undecided);
-    overlaps.retain(|area| !cutter.is_outside(&area.range));
-    undecided.retain(|area| !cutter.is_outside(&area.range));
+    overlaps.retain(|area| watch.stops(0) || !cutter.is_outside(&area.range));
+    undecided.retain(|area| watch.stops(0) || !cutter.is_outside(&area.range));
+    watch.checked()?;
     undecided.append(&mut cutter.undecided);
     for area in overlaps.iter_mut().chain(&mut undecided) {
         let r = area.range;

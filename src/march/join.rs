@@ -10,10 +10,9 @@
 
 use super::arc::Arc;
 use super::pieces::Pieces;
-use super::search::{Halt, Search};
-use super::system::meeting;
+use super::search::Search;
+use super::watch::Watch;
 use crate::bounds::{Vector, dot, norm, scaled, sub};
-use crate::error::Error;
 use std::collections::HashMap;
 
 /// Most chords between two ends of an arc.
@@ -41,8 +40,8 @@ pub enum Stop {
 
 /// A chain of arcs as places in order.
 pub struct Chain {
-    /// Places; at a seam the same position comes twice.
-    pub places: Vec<Place>,
+    /// Places u, v, s, t; at a seam the same position comes twice.
+    pub places: Vec<[f64; 4]>,
     /// How it ends, at its beginning and at its end.
     pub stops: [Stop; 2],
     /// How far it may leave the chord of two places, proven.
@@ -63,7 +62,7 @@ struct Step {
 }
 
 /// Arcs by the patches that they belong to.
-pub struct Joiner<'a, 'b> {
+pub struct Joiner<'a, 'b, 'w> {
     search: &'a Search<'b>,
     by_patches: HashMap<[u32; 2], Vec<usize>>,
     used: Vec<bool>,
@@ -74,11 +73,12 @@ pub struct Joiner<'a, 'b> {
     collapsed: [bool; 8],
     domain: [f64; 8],
     chord: f64,
+    watch: &'a Watch<'w>,
 }
 
-impl<'a, 'b> Joiner<'a, 'b> {
+impl<'a, 'b, 'w> Joiner<'a, 'b, 'w> {
     /// Sorts the arcs of a search; `chord`: how far points may lie from the chord of their neighbours.
-    pub fn new(search: &'a Search<'b>, chord: f64) -> Self {
+    pub fn new(search: &'a Search<'b>, chord: f64, watch: &'a Watch<'w>) -> Self {
         let mut by_patches: HashMap<[u32; 2], Vec<usize>> = HashMap::new();
         for (k, found) in search.found.iter().enumerate() {
             by_patches.entry(found.arc.patches).or_default().push(k);
@@ -97,22 +97,22 @@ impl<'a, 'b> Joiner<'a, 'b> {
             }),
             domain: [da[0], da[1], da[2], da[3], db[0], db[1], db[2], db[3]],
             chord,
+            watch,
         }
     }
 
     /// All chains, and places where an arc has no length (a corner of a domain that just meets the other surface).
-    /// `halt` is asked before each whether to stop.
-    ///
-    /// # Errors
-    /// [`Error::Cancelled`].
-    pub fn chains(mut self, halt: &mut Halt) -> Result<(Vec<Chain>, Vec<Place>), Error> {
+    pub fn chains(mut self) -> (Vec<Chain>, Vec<[f64; 4]>) {
         let (mut chains, mut points) = (Vec::new(), Vec::new());
-        for k in 0..self.search.found.len() {
+        let count = self.search.found.len();
+        for k in 0..count {
+            if self.watch.stops(count - k) {
+                break;
+            }
             let arc = &self.search.found[k].arc;
             if self.used[k] || arc.x[1] - arc.x[0] < 1e-9 {
                 continue;
             }
-            halt.ask()?;
             let middle = 0.5 * (arc.x[0] + arc.x[1]);
             if self.is_covered(k, middle) {
                 self.used[k] = true;
@@ -127,15 +127,12 @@ impl<'a, 'b> Joiner<'a, 'b> {
                 points.push(self.place(arc, arc.x[0]));
             }
         }
-        Ok((chains, points))
+        (chains, points)
     }
 
-    fn place(&self, arc: &Arc, x: f64) -> Place {
-        self.solution(arc, arc.solve(&self.search.a, &self.search.b, x))
-    }
-
-    fn solution(&self, arc: &Arc, z: [f64; 4]) -> Place {
-        Place { x: meeting(&self.search.a, arc.patches, z), at: self.global(arc.patches, z) }
+    /// u, v, s, t of the solution at `x`.
+    fn place(&self, arc: &Arc, x: f64) -> [f64; 4] {
+        self.global(arc.patches, arc.solve(&self.search.a, &self.search.b, x))
     }
 
     fn global(&self, patches: [u32; 2], z: [f64; 4]) -> [f64; 4] {
@@ -180,13 +177,11 @@ impl<'a, 'b> Joiner<'a, 'b> {
     }
 
     fn is_covered(&self, k: usize, x: f64) -> bool {
-        let place = self.place(&self.search.found[k].arc, x);
-        if self.on(place.at).iter().any(|&(j, _)| j != k && self.used[j]) {
+        let at = self.place(&self.search.found[k].arc, x);
+        if self.on(at).iter().any(|&(j, _)| j != k && self.used[j]) {
             return true;
         }
-        self.mirrored(place.at)
-            .iter()
-            .any(|&at| self.on(at).iter().any(|&(j, _)| j != k && self.used[j]))
+        self.mirrored(at).iter().any(|&at| self.on(at).iter().any(|&(j, _)| j != k && self.used[j]))
     }
 
     /// The same place on the other side of the seams that it lies on.
@@ -237,12 +232,15 @@ impl<'a, 'b> Joiner<'a, 'b> {
     }
 
     fn walk(&mut self, start: usize, x0: f64, forward: bool) -> (Vec<Step>, Stop) {
-        let origin = self.place(&self.search.found[start].arc, x0).at;
+        let origin = self.place(&self.search.found[start].arc, x0);
         let homes = self.on(origin);
         self.walks += 1;
         let (mut k, mut x, mut jump) = (start, x0, false);
         let mut steps: Vec<Step> = Vec::new();
         for _ in 0..4 * self.search.found.len() + 16 {
+            if self.watch.stops(0) {
+                break;
+            }
             let found = &self.search.found[k];
             let sign = self.sign(k, forward);
             self.used[k] = true;
@@ -260,7 +258,7 @@ impl<'a, 'b> Joiner<'a, 'b> {
             }
             steps.push(Step { arc: k, from: x, to, jump });
             let side = found.ends[usize::from(high)];
-            let end = self.place(&found.arc, to).at;
+            let end = self.place(&found.arc, to);
             // A walk passes every arc once; only its first one is reached again, when it closes.
             let fresh = |found: Vec<(usize, f64)>| -> Vec<(usize, f64)> {
                 let home = |j: usize, x: f64| {
@@ -320,12 +318,12 @@ impl<'a, 'b> Joiner<'a, 'b> {
 
     /// Places along the steps, as many as the chord tolerance asks by the bounds of the arcs.
     fn made(&self, steps: &[Step], stops: [Stop; 2]) -> Chain {
-        let (mut places, mut held) = (Vec::<Place>::new(), Vec::new());
+        let (mut places, mut held) = (Vec::new(), Vec::new());
         let (mut chord, mut bulge) = (0.0f64, [0.0f64; 4]);
         let (a, b) = (&self.search.a, &self.search.b);
         for (n, step) in steps.iter().enumerate() {
             let arc = &self.search.found[step.arc].arc;
-            let at = |x: f64| self.solution(arc, arc.solve(a, b, x));
+            let at = |x: f64| self.place(arc, x);
             if n == 0 || step.jump {
                 places.push(at(step.from));
                 if n > 0 {
@@ -342,6 +340,9 @@ impl<'a, 'b> Joiner<'a, 'b> {
             let widths = [a.width(arc.patches[0]), b.width(arc.patches[1])];
             bulge = [0, 1, 2, 3].map(|q| bulge[q].max(aside[q] * widths[q / 2][q % 2]));
             for k in 1..parts as usize {
+                if self.watch.stops(steps.len() - n) {
+                    break;
+                }
                 places.push(at(step.from + k as f64 / parts * (step.to - step.from)));
             }
             places.push(at(step.to));

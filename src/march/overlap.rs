@@ -9,9 +9,9 @@
 
 use super::contact::look;
 use super::join::{Place, Stop, distance_to_chord};
-use super::search::{Halt, Open, Search};
+use super::search::{Open, Search};
+use super::watch::Watch;
 use crate::bounds::{Vector, add, norm, scaled, sub};
-use crate::error::Error;
 
 /// Looks along a side within one box.
 const SAMPLES: usize = 16;
@@ -30,8 +30,9 @@ pub struct Rim {
     pub stop: Stop,
 }
 
-struct Side<'a, 'b> {
+struct Side<'a, 'b, 'w> {
     search: &'a Search<'b>,
+    watch: &'a Watch<'w>,
     /// 0: a side of A; 1: of B.
     own: usize,
     /// The parameter that is fixed there, and its value.
@@ -39,7 +40,7 @@ struct Side<'a, 'b> {
     value: f64,
 }
 
-impl Side<'_, '_> {
+impl Side<'_, '_, '_> {
     fn at(&self, t: f64) -> [f64; 2] {
         if self.fixed == 0 { [self.value, t] } else { [t, self.value] }
     }
@@ -69,7 +70,11 @@ impl Side<'_, '_> {
         samples.sort_by(f64::total_cmp);
         samples.dedup();
         let (mut run, mut last): (Vec<Place>, Option<f64>) = (Vec::new(), None);
-        for t in samples {
+        let count = samples.len();
+        for (k, t) in samples.into_iter().enumerate() {
+            if self.watch.stops(count - k) {
+                return;
+            }
             match self.seen(t, &ranges) {
                 Some(place) => {
                     // Where it began, between the last place that is off and this one.
@@ -135,6 +140,9 @@ impl Side<'_, '_> {
         let mut out = vec![*run.first()?];
         let mut waiting: Vec<Place> = run[1..].iter().rev().copied().collect();
         while let Some(to) = waiting.pop() {
+            if self.watch.stops(waiting.len()) {
+                return None;
+            }
             let from = out[out.len() - 1];
             let middle = self.seen(0.5 * (from.at[r] + to.at[r]), ranges);
             match middle {
@@ -150,13 +158,10 @@ impl Side<'_, '_> {
     }
 }
 
-/// Curves around all areas in which the surfaces of a search coincide. `halt` is asked now and then whether to stop.
-///
-/// # Errors
-/// [`Error::Cancelled`].
-pub fn rims(search: &Search, chord: f64, halt: &mut Halt) -> Result<Vec<Rim>, Error> {
+/// Curves around all areas in which the surfaces of a search coincide.
+pub fn rims(search: &Search, chord: f64, watch: &Watch) -> Vec<Rim> {
     if !search.open.iter().any(|pair| pair.why == Open::Area) {
-        return Ok(Vec::new());
+        return Vec::new();
     }
     let mut lines: Vec<Vec<Place>> = Vec::new();
     for own in 0..2 {
@@ -164,8 +169,7 @@ pub fn rims(search: &Search, chord: f64, halt: &mut Halt) -> Result<Vec<Rim>, Er
         let (domain, collapsed) = (surface.domain(), surface.collapsed_edges());
         let closed = [surface.is_closed_u(), surface.is_closed_v()];
         for side in (0..4).filter(|&side| !closed[side / 2] && !collapsed[side]) {
-            halt.ask()?;
-            let one = Side { search, own, fixed: side / 2, value: domain[side] };
+            let one = Side { search, watch, own, fixed: side / 2, value: domain[side] };
             let mut found = Vec::new();
             one.rims(chord, &mut found);
             // Where borders of both run together the line is there already.
@@ -180,7 +184,7 @@ pub fn rims(search: &Search, chord: f64, halt: &mut Halt) -> Result<Vec<Rim>, Er
             lines.extend(found);
         }
     }
-    joined(lines, search, halt)
+    joined(lines, search)
 }
 
 /// Whether both ends of a line are near another one.
@@ -189,12 +193,11 @@ fn meets(line: &[Place], other: &[Place], near: f64) -> bool {
     close(other[0].x) && close(other[other.len() - 1].x)
 }
 
-fn joined(mut lines: Vec<Vec<Place>>, search: &Search, halt: &mut Halt) -> Result<Vec<Rim>, Error> {
+fn joined(mut lines: Vec<Vec<Place>>, search: &Search) -> Vec<Rim> {
     // Ends were found by what is rounding: they are as far apart as that lets them be.
     let near = 1e-6 + 64.0 * search.floor;
     let mut rims = Vec::new();
     while let Some(mut line) = lines.pop() {
-        halt.ask()?;
         loop {
             let (first, end) = (line[0].x, line[line.len() - 1].x);
             if line.len() > 2 && norm(sub(first, end)) <= near {
@@ -220,5 +223,5 @@ fn joined(mut lines: Vec<Vec<Place>>, search: &Search, halt: &mut Halt) -> Resul
             }
         }
     }
-    Ok(rims)
+    rims
 }

@@ -259,6 +259,21 @@ impl Pieces {
         [add(patch.center, x), slope(pu), slope(pv)]
     }
 
+    /// The point of a patch at unit parameters.
+    pub fn position(&self, patch: u32, at: [f64; 2]) -> Vector {
+        let patch = &self.patches[patch as usize];
+        if let Some([o, du, dv]) = patch.affine {
+            return add(patch.center, add(o, add(scaled(du, at[0]), scaled(dv, at[1]))));
+        }
+        let p = match self.degree {
+            [3, 3] => point_of::<4, 4>(&patch.poles, at),
+            [2, 2] => point_of::<3, 3>(&patch.poles, at),
+            [2, 1] => point_of::<3, 2>(&patch.poles, at),
+            degree => homogeneous(&patch.poles, degree, at)[0],
+        };
+        add(patch.center, [0, 1, 2].map(|k| p[k] / p[3]))
+    }
+
     /// Widths of a patch in the caller's parameters.
     pub fn width(&self, patch: u32) -> [f64; 2] {
         let patch = &self.patches[patch as usize];
@@ -464,6 +479,18 @@ fn fixed<const N: usize, const M: usize>(poles: &[Pole], at: [f64; 2]) -> [Pole;
             sum[0][k] += b * x[k];
             sum[1][k] += db * x[k];
             sum[2][k] += b * dx[k];
+        }
+    }
+    sum
+}
+
+/// The homogeneous point alone, of N x M poles.
+fn point_of<const N: usize, const M: usize>(poles: &[Pole], at: [f64; 2]) -> Pole {
+    let ([b, _], [c, _]) = (bernstein_of::<N>(at[0]), bernstein_of::<M>(at[1]));
+    let mut sum = [0.0; 4];
+    for (row, b) in poles.as_chunks::<M>().0.iter().zip(b) {
+        for (pole, c) in row.iter().zip(c) {
+            (0..4).for_each(|k| sum[k] += b * c * pole[k]);
         }
     }
     sum

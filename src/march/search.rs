@@ -14,6 +14,7 @@ use super::arc::{Arc, Clip};
 use super::contact::{into_domain, look, settle};
 use super::pair::{Verdict, judge};
 use super::pieces::{Part, Pieces};
+use super::watch::Watch;
 use crate::bounds::{Aabb, HALF_ULP, Vector, cross, dot, norm, sub};
 use crate::error::Error;
 use crate::surface::Surface;
@@ -67,25 +68,6 @@ pub struct Found {
     pub ends: [Option<usize>; 2],
 }
 
-/// Whether the caller wants to stop, asked by what follows the search: no pair waits there.
-pub struct Halt<'a> {
-    judged: u64,
-    poll: &'a mut dyn FnMut(u64, u64) -> bool,
-}
-
-impl<'a> Halt<'a> {
-    /// After a search that judged so many pairs.
-    pub fn new(judged: u64, poll: &'a mut dyn FnMut(u64, u64) -> bool) -> Self {
-        Self { judged, poll }
-    }
-
-    /// # Errors
-    /// [`Error::Cancelled`] when `poll(judged, 0)` said so.
-    pub fn ask(&mut self) -> Result<(), Error> {
-        if (self.poll)(self.judged, 0) { Err(Error::Cancelled) } else { Ok(()) }
-    }
-}
-
 /// The search and what it found.
 pub struct Search<'a> {
     /// The surfaces in the frame of the search.
@@ -130,12 +112,8 @@ impl<'a> Search<'a> {
     /// Judges all pairs, at most `budget`.
     ///
     /// # Errors
-    /// [`Error::Cancelled`] when `poll(judged, waiting)` said so.
-    pub fn run(
-        &mut self,
-        budget: u64,
-        poll: &mut dyn FnMut(u64, u64) -> bool,
-    ) -> Result<(), Error> {
+    /// [`Error::Cancelled`] when the watch said so.
+    pub fn run(&mut self, budget: u64, watch: &Watch) -> Result<(), Error> {
         let mut waiting = self.first_pairs();
         let mut level = 0;
         while !waiting.is_empty() {
@@ -148,7 +126,7 @@ impl<'a> Search<'a> {
                     return Ok(());
                 }
                 if self.judged.is_multiple_of(GROUP)
-                    && poll(self.judged, (waiting.len() - k + next.len()) as u64)
+                    && watch.asks(self.judged, (waiting.len() - k + next.len()) as u64)
                 {
                     return Err(Error::Cancelled);
                 }

@@ -9,6 +9,7 @@
 //! A curve that is not closed, and does not end on loops and other curves, cuts nothing: it is named, and left out. Coedges that are not cut keep their edges; cut ones are known as the
 //! images of their pcurves; a new curve is one edge for the two coedges along it.
 
+use super::watch::Watch;
 use super::{Intersection, MarchPoint};
 use crate::bounds::{norm, sub};
 use crate::curve::Curve;
@@ -46,19 +47,20 @@ struct Way {
     to: usize,
 }
 
-struct Plane<'a> {
+struct Plane<'a, 'w> {
     face: &'a TrimmedSurface,
     scale: [f64; 2],
     tolerance: f64,
     nodes: Vec<[f64; 2]>,
     ways: Vec<Way>,
+    watch: &'a Watch<'w>,
 }
 
 fn refused<T>(text: String) -> Result<T, Error> {
     Err(Error::InvalidArgument(text))
 }
 
-impl Plane<'_> {
+impl Plane<'_, '_> {
     fn apart(&self, p: [f64; 2], q: [f64; 2]) -> f64 {
         ((p[0] - q[0]) / self.scale[0]).hypotenuse((p[1] - q[1]) / self.scale[1])
     }
@@ -131,6 +133,9 @@ impl Plane<'_> {
             let (a, b) = pcurve.domain();
             let mut places: Vec<f64> = Vec::new();
             for &end in &ends {
+                if self.watch.stops(ends.len()) {
+                    return Err(Error::Cancelled);
+                }
                 let t = self.nearest(pcurve, end);
                 if !self.same(pcurve.evaluate(t), end) {
                     continue;
@@ -174,6 +179,9 @@ impl Plane<'_> {
     fn useful(&self, cuts: &[Cut]) -> Vec<usize> {
         let on_loop = |at: [f64; 2]| {
             self.face.coedges().any(|(_, _, coedge)| {
+                if self.watch.stops(cuts.len()) {
+                    return false;
+                }
                 let t = self.nearest(&coedge.pcurve, at);
                 self.same(coedge.pcurve.evaluate(t), at)
             })
@@ -215,6 +223,9 @@ impl Plane<'_> {
             loop {
                 if used[at] {
                     return refused("cuts: two of them leave a place in one direction".into());
+                }
+                if self.watch.stops(self.ways.len()) {
+                    return Err(Error::Cancelled);
                 }
                 used[at] = true;
                 chain.push(at);
@@ -361,17 +372,29 @@ fn polylines(run: &[MarchPoint], second: bool) -> Result<Option<Cut>, Error> {
 }
 
 /// The faces into which curves cut a face. `tolerance`: a length within which ends of curves meet loops and one another. Curves that
-/// cross one another must be cut there first.
+/// cross one another must be cut there first. `poll(done, left)` is asked now and then whether to stop.
 ///
 /// # Errors
-/// A tolerance that is no positive length; cuts that touch; loops that are not closed.
-pub fn split(face: &TrimmedSurface, cuts: &[Cut], tolerance: f64) -> Result<Split, Error> {
+/// A tolerance that is no positive length; cuts that touch; loops that are not closed; [`Error::Cancelled`].
+pub fn split(
+    face: &TrimmedSurface,
+    cuts: &[Cut],
+    tolerance: f64,
+    poll: &mut dyn FnMut(u64, u64) -> bool,
+) -> Result<Split, Error> {
     if !tolerance.is_finite() || tolerance <= 0.0 {
         return refused(format!("tolerance: {tolerance} is not a positive length"));
     }
     let [u0, u1, v0, v1] = face.support().domain();
-    let mut plane =
-        Plane { face, scale: [u1 - u0, v1 - v0], tolerance, nodes: Vec::new(), ways: Vec::new() };
+    let watch = Watch::new(poll);
+    let mut plane = Plane {
+        face,
+        scale: [u1 - u0, v1 - v0],
+        tolerance,
+        nodes: Vec::new(),
+        ways: Vec::new(),
+        watch: &watch,
+    };
     let useful = plane.useful(cuts);
     let unused = (0..cuts.len()).filter(|k| !useful.contains(k)).collect();
     let cuts: Vec<Cut> = useful.iter().map(|&k| cuts[k].clone()).collect();
@@ -385,6 +408,9 @@ pub fn split(face: &TrimmedSurface, cuts: &[Cut], tolerance: f64) -> Result<Spli
     let (regions, mut memory) = (regions?, Halving::default());
     let mut parts: Vec<Vec<&Vec<usize>>> = outer.iter().map(|&k| vec![&chains[k]]).collect();
     for (k, chain) in chains.iter().enumerate().filter(|&(k, _)| areas[k] <= 0.0) {
+        if watch.stops(chains.len() - k) {
+            return Err(Error::Cancelled);
+        }
         let pcurve = &plane.ways[chain[0]].pcurve;
         let at = pcurve.evaluate(pcurve.parameter_at(0.437));
         let around = |&n: &usize| {
@@ -397,7 +423,9 @@ pub fn split(face: &TrimmedSurface, cuts: &[Cut], tolerance: f64) -> Result<Spli
             None => return refused("cuts: a hole lies in no part of the face".into()),
         }
     }
-    let faces: Result<Vec<TrimmedSurface>, Error> =
-        parts.iter().map(|chains| plane.made(chains, &cuts)).collect();
+    let faces: Result<Vec<TrimmedSurface>, Error> = parts
+        .iter()
+        .map(|chains| watch.checked().and_then(|()| plane.made(chains, &cuts)))
+        .collect();
     Ok(Split { faces: faces?, unused })
 }

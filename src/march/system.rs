@@ -37,8 +37,3 @@ pub fn system(a: &Pieces, b: &Pieces, patches: [u32; 2], z: [f64; 4]) -> (Vector
     let [q, qs, qt] = b.jet(patches[1], [z[2], z[3]]);
     (sub(p, q), [pu, pv, scaled(qs, -1.0), scaled(qt, -1.0)])
 }
-
-/// The point of A of a solution.
-pub fn meeting(a: &Pieces, patches: [u32; 2], z: [f64; 4]) -> Vector {
-    a.jet(patches[0], [z[0], z[1]])[0]
-}

@@ -6,9 +6,9 @@
 
 use super::contact::{Touch, into_domain, settle};
 use super::join::{Place, Stop, distance_to_chord};
-use super::search::{Halt, Open, Search};
+use super::search::{Open, Search};
+use super::watch::Watch;
 use crate::bounds::{Vector, add, dot, norm, scaled, sub};
-use crate::error::Error;
 
 /// Most steps along one curve.
 const MOST_STEPS: usize = 20_000;
@@ -24,12 +24,13 @@ pub struct Ridge {
     pub stops: [Stop; 2],
 }
 
-struct Tracer<'a, 'b> {
+struct Tracer<'a, 'b, 'w> {
     search: &'a Search<'b>,
     chord: f64,
+    watch: &'a Watch<'w>,
 }
 
-impl Tracer<'_, '_> {
+impl Tracer<'_, '_, '_> {
     fn place(&self, touch: &Touch) -> Place {
         let at = touch.at;
         let x = self.search.surfaces[0].evaluate(at[0], at[1]);
@@ -85,7 +86,7 @@ impl Tracer<'_, '_> {
     fn run(&self, first: Touch, along: Vector, h: f64) -> (Vec<Touch>, Stop) {
         let (mut at, mut along, mut all) = (first, along, Vec::new());
         let origin = self.place(&first).x;
-        while all.len() < MOST_STEPS {
+        while all.len() < MOST_STEPS && !self.watch.stops(0) {
             let here = self.place(&at).x;
             let Some((next, ended)) = self.step(&at, along, h) else {
                 return (all, self.side(at.at).map_or(Stop::Open, Stop::Border));
@@ -115,6 +116,9 @@ impl Tracer<'_, '_> {
         let middle = [0, 1, 2, 3].map(|k| 0.5 * (from.at[k] + to.at[k]));
         let h = norm(sub(to.x, from.x));
         let Some(touch) = self.touch(middle, h).filter(|_| depth < 12) else { return };
+        if self.watch.stops(0) {
+            return;
+        }
         let place = self.place(&touch);
         if distance_to_chord(place.x, from.x, to.x) <= 0.5 * self.chord {
             return;
@@ -161,15 +165,14 @@ pub fn unfollowed(search: &Search, ridges: &[Ridge]) -> Vec<[f64; 4]> {
     middles.filter(|&(_, x, size)| !is_followed(x, size)).map(|(at, ..)| at).collect()
 }
 
-/// All curves of touching, from the pairs in which it was seen. `halt` is asked before each whether to stop.
-///
-/// # Errors
-/// [`Error::Cancelled`].
-pub fn ridges(search: &Search, chord: f64, halt: &mut Halt) -> Result<Vec<Ridge>, Error> {
-    let tracer = Tracer { search, chord };
+/// All curves of touching, from the pairs in which it was seen.
+pub fn ridges(search: &Search, chord: f64, watch: &Watch) -> Vec<Ridge> {
+    let tracer = Tracer { search, chord, watch };
     let mut found: Vec<Ridge> = Vec::new();
     for pair in search.open.iter().filter(|pair| pair.why == Open::Curve) {
-        halt.ask()?;
+        if watch.stops(0) {
+            break;
+        }
         let middle = [0, 1, 2, 3].map(|k| 0.5 * (pair.low[k] + pair.high[k]));
         let Some(touch) = tracer.touch(middle, pair.size) else { continue };
         let x = tracer.place(&touch).x;
@@ -184,5 +187,5 @@ pub fn ridges(search: &Search, chord: f64, halt: &mut Halt) -> Result<Vec<Ridge>
         ridge.stops.contains(&Stop::Open) && ridge.places.iter().map(far).fold(0.0, f64::max) < CUSP
     };
     found.retain(|ridge| !is_short(ridge));
-    Ok(found)
+    found
 }
