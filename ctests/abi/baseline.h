@@ -2069,6 +2069,7 @@ fpt_status fpt_surface_intersection_curves(const struct fpt_surface_intersection
                                            size_t index,
                                            double tolerance,
                                            size_t part,
+                                           const struct fpt_intersect_surfaces_options *options,
                                            size_t *out_count,
                                            struct fpt_curve **out_curves,
                                            double *out_error);
@@ -2077,6 +2078,7 @@ fpt_status fpt_surface_intersection_split(const struct fpt_surface_intersection 
                                           const struct fpt_trim *trim,
                                           uint32_t which,
                                           double tolerance,
+                                          const struct fpt_intersect_surfaces_options *options,
                                           size_t capacity,
                                           struct fpt_trim **out_trims,
                                           size_t *out_count);
