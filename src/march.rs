@@ -293,9 +293,9 @@ pub fn intersect(
     let watch = Watch::new(poll);
     search.run(budget, &watch)?;
     let (chains, points) = Joiner::new(&search, chord, &watch).chains();
-    watch.checked()?;
+    watch.phase()?;
     let ridges = ridges(&search, chord, &watch);
-    watch.checked()?;
+    watch.phase()?;
     let mut made =
         Maker { a: a.surface(), b: b.surface(), search: &search, out: Intersection::default() };
     made.out.judged = search.judged;
@@ -305,7 +305,7 @@ pub fn intersect(
         made.tip(tip, [a, b]);
     }
     let groups = clusters(&search, &watch);
-    watch.checked()?;
+    watch.phase()?;
     match &groups {
         Some(groups) => made.classify(groups, &ridges, &watch),
         None => {
@@ -313,7 +313,7 @@ pub fn intersect(
                 search.open.iter().map(|pair| region(pair.low, pair.high)).collect()
         }
     }
-    watch.checked()?;
+    watch.phase()?;
     for place in points {
         let place = made.point(place);
         made.out.contacts.push(Contact {
@@ -334,14 +334,14 @@ pub fn intersect(
     }
     made.join_at_tips();
     made.swallow();
-    watch.checked()?;
+    watch.phase()?;
     for rim in rims(&search, chord, &watch) {
         made.push(rim.places.iter().map(|place| place.at), [rim.stop; 2], None);
         if let Some(branch) = made.out.branches.last_mut() {
             branch.bounds_overlap = true;
         }
     }
-    watch.checked()?;
+    watch.phase()?;
     made.out.is_proven = settled(&made.out);
     Ok(made.out)
 }

@@ -131,7 +131,9 @@ fn from_marching_starts_correctors_take_two_or_three_steps() {
                 "{method:?}, {tolerance:e}: {mean:.2} steps, {most} at most, {} starts",
                 starts.len()
             );
-            assert!(mean <= 3.0, "{method:?}: {mean}");
+            // The first step of the moving affine frame is the ball transform of the start, which the papers do not count.
+            let extra = if method == Corrector::Maf { 1.0 } else { 0.0 };
+            assert!(mean <= 3.0 + extra, "{method:?}: {mean}");
         }
     }
 }

@@ -3,7 +3,7 @@
 //! ```text
 //!   transversal   tangents (x, y, z, u, v, s, t)' a little before and behind a point, by the null vector of the derivatives: exact, so that a
 //!                 corner is told from a tight turn
-//!   touching      no null vector: tangents of the parabolas through the last and the next three points
+//!   touching      no null vector: tangents of the parabolas through the point and the two before it, or behind it
 //! ```
 
 use super::MarchPoint;
@@ -103,10 +103,12 @@ fn by_points(points: &[MarchPoint], i: usize, [near, far]: [usize; 2]) -> Tangen
     let length = |x: &Tangent, y: &Tangent| norm([x[0] - y[0], x[1] - y[1], x[2] - y[2]]);
     let (h, k) = (length(&p, &q), length(&q, &r));
     let first: Tangent = std::array::from_fn(|c| (p[c] - q[c]) / h);
-    let slope = if k == 0.0 {
-        first
+    let turn: Tangent = std::array::from_fn(|c| first[c] - (q[c] - r[c]) / k);
+    // No parabola through the two nearest and one behind a corner at the second.
+    let slope = if k > 0.0 && norm([turn[0], turn[1], turn[2]]) <= BY_POINTS {
+        std::array::from_fn(|c| first[c] + turn[c] * h / (h + k))
     } else {
-        std::array::from_fn(|c| first[c] + (first[c] - (q[c] - r[c]) / k) * h / (h + k))
+        first
     };
     let size = norm([slope[0], slope[1], slope[2]]);
     slope.map(|x| x / size)

@@ -265,13 +265,15 @@ impl<'a> Run<'a> {
             };
             let spline = of_function(function, [0.0, total], &options);
             watch.checked()?;
-            let spline = spline?.spline;
+            let fit = spline?;
+            let (spline, misses) = (fit.spline, fit.worst > share * tolerance);
             let made = self.curves(spline.knots().values(), spline.poles())?;
             let error = made.error;
             if best.as_ref().is_none_or(|best| error < best.error) {
                 best = Some(made);
             }
-            if error <= tolerance {
+            // What the poles did not suffice for they will not for less.
+            if error <= tolerance || misses {
                 break;
             }
         }

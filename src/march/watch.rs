@@ -45,6 +45,15 @@ impl<'a> Watch<'a> {
         self.stopped.get()
     }
 
+    /// Asks at the end of a phase.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub fn phase(&self) -> Result<(), Error> {
+        self.asks(self.done.get(), 0);
+        self.checked()
+    }
+
     /// What a phase made is of use only if nobody stopped it.
     ///
     /// # Errors
