@@ -12,9 +12,17 @@ mod slope;
 
 mod polynomial;
 
+mod doubled;
+
+mod model;
+
+mod net;
+
 mod cell;
 
 mod request;
+
+mod local;
 
 mod search;
 

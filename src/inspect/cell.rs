@@ -387,6 +387,15 @@ pub(super) struct Known {
     pub gradient: [Interval; 2],
 }
 
+impl Known {
+    /// Nothing.
+    pub const ENTIRE: Self = Self {
+        middle: Interval::ENTIRE,
+        range: Interval::ENTIRE,
+        gradient: [Interval::ENTIRE; 2],
+    };
+}
+
 impl From<Slope<2>> for Known {
     fn from(slope: Slope<2>) -> Self {
         Self { middle: slope.middle, range: slope.range, gradient: slope.gradient }

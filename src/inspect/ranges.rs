@@ -15,10 +15,12 @@
 //! Limit: beside a singularity the cost grows; the budget then ends the search, with honest bounds.
 
 use super::carrier::Elementary;
-use super::cell::{Bending, Forms, Known, Piece, check_degree};
+use super::cell::{Bending, Known, check_degree};
 use super::climb::places;
 use super::glance::glance;
 use super::interval::Interval;
+use super::local::{Local, Room};
+use super::net::Nets;
 use super::request::{
     Quantity, Range, RangeOptions, areas_inside, check, collapsed_side, known, parts_inside,
     patch_piece, segment_piece,
@@ -28,64 +30,15 @@ use crate::bezier::Bidegree;
 use crate::error::Error;
 use crate::index::{IndexedCurve, IndexedSurface, Span, SurfaceIndex};
 
-/// Boxes that become pieces of their own at most.
-const MOST_LOCAL: usize = 20_000;
-
 /// The patches of a surface.
 struct Patches<'a> {
     index: &'a SurfaceIndex,
     quantity: Quantity,
-    forms: Vec<Option<Forms>>,
-    /// Boxes that are pieces of their own; their numbers follow those of the patches.
-    local: Vec<(Start, Forms)>,
-    /// How far nets were moved to be flat at their poles.
+    nets: Nets<'a>,
+    locals: Vec<Option<Local>>,
+    /// How far patches were moved to be flat at their poles.
     moved: f64,
-    net: Vec<f64>,
-    work: Vec<f64>,
-}
-
-/// The forms of a piece on a box of a patch; those of smooth poles that the box touches divided out.
-fn forms(index: &SurfaceIndex, piece: Piece, (k, s, t): Start, moved: &mut f64) -> Forms {
-    let patch = &index.patches[k];
-    let touched = [s[0] == 0.0, s[1] == 1.0, t[0] == 0.0, t[1] == 1.0];
-    let sides: Vec<usize> = (0..4).filter(|&i| touched[i] && patch.collapsed[i]).collect();
-    if sides.is_empty() {
-        return Forms::light(&piece);
-    }
-    // Two sides that meet in a corner leave no frame there.
-    if sides.iter().any(|side| side / 2 != sides[0] / 2) {
-        return Forms::new(&piece);
-    }
-    let gaps: Option<Vec<f64>> = sides.iter().map(|&side| piece.flatness(side)).collect();
-    let Some(gaps) = gaps else { return Forms::new(&piece) };
-    let gap = gaps.iter().fold(0.0, |a, b| a + b);
-    let flat = Piece { error: piece.error + gap, ..piece };
-    let divided = sides.iter().try_fold(Forms::new(&flat), |forms, &side| forms.divided(side));
-    match divided {
-        Some(forms) => {
-            *moved = moved.max(gap + patch.spread + piece.error);
-            forms
-        }
-        None => Forms::new(&piece),
-    }
-}
-
-impl Patches<'_> {
-    /// The forms of a box of a patch.
-    fn part(&mut self, at: Start) -> Forms {
-        let part = patch_piece(self.index, at.0).part(at.1, at.2, &mut self.net);
-        forms(self.index, part, at, &mut self.moved)
-    }
-
-    fn forms(&mut self, k: usize) -> &Forms {
-        if let Some(k) = k.checked_sub(self.forms.len()) {
-            return &self.local[k].1;
-        }
-        let (index, moved) = (self.index, &mut self.moved);
-        let whole = [0.0, 1.0];
-        self.forms[k]
-            .get_or_insert_with(|| forms(index, patch_piece(index, k), (k, whole, whole), moved))
-    }
+    room: Room,
 }
 
 impl Field for Patches<'_> {
@@ -94,51 +47,18 @@ impl Field for Patches<'_> {
     }
 
     fn on(&mut self, (k, s, t): Start) -> Known {
-        let mut work = std::mem::take(&mut self.work);
-        let shape = self.forms(k).on(s, t, &mut work);
-        self.work = work;
-        known(&shape, self.quantity)
-    }
-
-    fn avoids(&mut self, at: Start, value: f64) -> Option<bool> {
-        let (k, s, t) = at;
-        let (quantity, mut work) = (self.quantity, std::mem::take(&mut self.work));
-        let avoids = if s == [0.0, 1.0] && t == [0.0, 1.0] {
-            self.forms(k).avoids(quantity, value, &mut work)
-        } else {
-            self.part(self.origin(at)).avoids(quantity, value, &mut work)
-        };
-        self.work = work;
-        avoids
-    }
-
-    fn local(&mut self, at: Start) -> Option<Start> {
-        let origin = self.origin(at);
-        let degree = self.index.degree;
-        let is_low = degree.s.max(degree.t) <= if self.index.rational { 2 } else { 3 };
-        // Beside a smooth pole the forms of the patch, with its factors divided out, are the better ones.
-        if self.local.len() >= MOST_LOCAL || is_low || self.index.patches[origin.0].has_collapsed()
-        {
-            return None;
+        if self.locals[k].is_none() {
+            let local = Local::new(&mut self.nets, self.index, k);
+            self.moved = self.moved.max(local.moved);
+            self.locals[k] = Some(local);
         }
-        let forms = self.part(origin);
-        self.local.push((origin, forms));
-        Some((self.forms.len() + self.local.len() - 1, [0.0, 1.0], [0.0, 1.0]))
+        match &self.locals[k] {
+            Some(local) => local.on(s, t, self.quantity, &mut self.room),
+            None => Known::ENTIRE,
+        }
     }
 
-    fn origin(&self, at: Start) -> Start {
-        let (k, s, t) = at;
-        let Some((whole, _)) = k.checked_sub(self.forms.len()).map(|k| &self.local[k]) else {
-            return at;
-        };
-        let (k, u, v) = *whole;
-        // The ends are kept to the bit: they tell which sides a box touches.
-        let place = |[a, b]: [f64; 2], x: f64| if x == 1.0 { b } else { a + (b - a) * x };
-        (k, s.map(|x| place(u, x)), t.map(|x| place(v, x)))
-    }
-
-    fn across(&self, at: Start) -> Option<usize> {
-        let (k, s, t) = self.origin(at);
+    fn across(&self, (k, s, t): Start) -> Option<usize> {
         collapsed_side(self.index, k, s, t)
     }
 }
@@ -171,11 +91,10 @@ pub fn surface_range(
     let mut field = Patches {
         index,
         quantity,
-        forms: (0..index.patches.len()).map(|_| None).collect(),
-        local: Vec::new(),
+        nets: Nets::new(surface.surface(), index),
+        locals: (0..index.patches.len()).map(|_| None).collect(),
         moved: 0.0,
-        net: Vec::new(),
-        work: Vec::new(),
+        room: Room::default(),
     };
     let thought = places(surface.surface(), &spans, &starts, quantity, options.side);
     let range = found(&mut field, &starts, &thought, &spans, factor, options, poll)?;

@@ -294,7 +294,8 @@ impl Search<'_> {
         }
         let spread = area.known.gradient.map(|slope| slope.high - slope.low);
         let wider = usize::from(widths[1] > widths[0]);
-        if !spread.iter().all(|x| x.is_finite()) || widths[wider] > 64.0 * widths[1 - wider] {
+        let is_known = spread.iter().all(|x| x.is_finite()) && spread != [0.0; 2];
+        if !is_known || widths[wider] > 64.0 * widths[1 - wider] {
             return wider;
         }
         usize::from(spread[1] > spread[0])
