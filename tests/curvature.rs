@@ -249,13 +249,15 @@ fn least_radii_of_every_case() {
         let time = processor_time(start) - before;
         let [low, high] = found.greatest;
         println!(
-            "{:28} {time:9.3} ms {:6} boxes  radius {:.6e} gap {:.1e} excluded {} moved {:.0e} {}",
+            "{:28} {time:9.3} ms {:6} boxes  radius {:.6e} gap {:.1e} excluded {} unbounded {} moved {:.0e} rest {} {}",
             case.name,
             found.boxes,
             1.0 / high,
             (high - low) / high,
             found.excluded.len(),
+            found.unbounded.len(),
             found.moved,
+            found.rest_proven,
             found.proven
         );
     }

@@ -16,9 +16,10 @@
 //! ```
 
 use super::cell::{Known, Shape};
+use super::doubled::{Doubled, UNIT};
 use super::interval::Interval;
 use super::model::{Model, Table};
-use super::net::{Net, Nets};
+use super::net::{Exact, ExactNet, Nets};
 use super::polynomial::Polynomial;
 use super::request::{Quantity, known};
 use super::slope::Slope;
@@ -33,11 +34,16 @@ const ROUNDING: f64 = 2e-13;
 struct Jet([Polynomial; 6]);
 
 impl Jet {
-    fn new(f: Polynomial) -> Self {
+    fn new(f: &Exact) -> Self {
         let [s, t] = [f.derivative(0), f.derivative(1)];
-        let second = [s.derivative(0), s.derivative(1), t.derivative(1)];
+        let second = [s.derivative(0), s.derivative(1), t.derivative(1)].map(|f| f.rounded());
         let [ss, st, tt] = second;
-        Self([f, s, t, ss, st, tt])
+        Self([f.rounded(), s.rounded(), t.rounded(), ss, st, tt])
+    }
+
+    fn of(net: &ExactNet, c: usize) -> Self {
+        let coefficients = net.component(c).to_vec();
+        Self::new(&Exact { coefficients, degree: net.degree, error: net.error(c) })
     }
 }
 
@@ -132,12 +138,10 @@ fn quotient(f: &[Model; 6], w: &[Model; 6], inverse: &Model) -> [Model; 6] {
 }
 
 impl Form {
-    fn new(net: &Net, pole: Option<usize>, is_mirrored: bool) -> Self {
-        let of = |c: usize| {
-            Jet::new(Polynomial::new(net.component(c), net.degree, net.errors[c]))
-        };
+    fn new(net: &ExactNet) -> Self {
+        let of = |c: usize| Jet::of(net, c);
         let weight = net.rational.then(|| of(3));
-        Self { position: [of(0), of(1), of(2)], weight, pole, is_mirrored }
+        Self { position: [of(0), of(1), of(2)], weight, pole: None, is_mirrored: false }
     }
 
     /// The form about a smooth pole and how far the patch was moved for it; none when the pole is none.
@@ -146,10 +150,11 @@ impl Form {
         let exact = nets.net(k, corner);
         let Bidegree { s: p, t: q } = exact.degree;
         let first = [0, p * (q + 1), 0, q][side];
-        let (net, is_mirrored) = exact.about(exact.point(first)).rounded().turned(side);
+        let origin = exact.point(first);
+        let (net, is_mirrored) = exact.about(origin).turned(side);
         let (degree, width) = (net.degree, net.degree.t + 1);
-        let weight = |k: usize| if net.rational { net.component(3)[k] } else { 1.0 };
-        let at = |k: usize| [0, 1, 2].map(|c| net.component(c)[k] / weight(k));
+        let weight = |k: usize| if net.rational { net.component(3)[k].high } else { 1.0 };
+        let at = |k: usize| [0, 1, 2].map(|c| net.component(c)[k].high / weight(k));
         let spread = (0..=degree.s).map(|i| norm(at(i * width))).fold(0.0, f64::max);
         let ways: Vec<Vector> = (0..=degree.s).map(|i| at(i * width + 1)).collect();
         let pairs = ways.iter().flat_map(|a| ways.iter().map(|b| cross(*a, *b)));
@@ -164,33 +169,32 @@ impl Form {
         let across = cross(third, along);
         let axes = [along, scaled(across, 1.0 / norm(across)), third];
         let gap = ways.iter().map(|way| dot(*way, third).abs()).fold(0.0, f64::max);
+        if gap.is_nan() || gap > ROUNDING {
+            return None;
+        }
         // The axes are unit vectors and normal to each other up to rounding: that much the patch is sheared.
         let radius = (0..degree.count()).map(|k| norm(at(k))).fold(0.0, f64::max);
         let moved = gap + spread + 16.0 * HALF_ULP * radius;
-        if moved.is_nan() || moved > ROUNDING {
-            return None;
-        }
         let heavy = (0..degree.count()).map(weight).fold(0.0, f64::max);
-        let errors = net.errors[0] + net.errors[1] + net.errors[2];
-        let error = errors + (more + 8.0 * HALF_ULP * radius) * heavy;
+        let errors = net.error(0) + net.error(1) + net.error(2);
+        let error = 2.0 * errors + 16.0 * UNIT * radius * heavy + more * heavy;
         let component = |c: usize| {
             let flat = if c == 2 { 2 } else { 1 };
-            let values: Vec<f64> = (0..degree.count())
-                .map(|k| {
-                    let x = [0, 1, 2].map(|c| net.component(c)[k]);
-                    if k % width < flat { 0.0 } else { dot(axes[c], x) }
-                })
-                .collect();
             if degree.t < flat {
                 // Nothing but the flat rows.
-                return Jet::new(Polynomial::new(&[0.0], Bidegree { s: 0, t: 0 }, 0.0));
+                let degree = Bidegree { s: 0, t: 0 };
+                return Jet::new(&Exact { coefficients: vec![Doubled::default()], degree, error: 0.0 });
             }
-            Jet::new(Polynomial::new(&values, degree, error).divided(2, flat))
+            let coefficients = (0..degree.count())
+                .map(|k| {
+                    let terms = [0, 1, 2].map(|i| net.component(i)[k] * Doubled::new(axes[c][i]));
+                    terms[0] + terms[1] + terms[2]
+                })
+                .collect();
+            Jet::new(&Exact { coefficients, degree, error }.divided(flat))
         };
         let position = [component(0), component(1), component(2)];
-        let weight = net
-            .rational
-            .then(|| Jet::new(Polynomial::new(net.component(3), degree, net.errors[3])));
+        let weight = net.rational.then(|| Jet::of(&net, 3));
         Some((Self { position, weight, pole: Some(side), is_mirrored }, moved))
     }
 
@@ -378,10 +382,8 @@ impl Local {
             }
         }
         let exact = nets.net(k, [0.5; 2]);
-        let count = exact.degree.count();
-        let net = exact.about(exact.point(count / 2)).rounded();
-        let form = Form::new(&net, None, false);
-        Self { forms: vec![form], moved: 0.0 }
+        let origin = exact.point(exact.degree.count() / 2);
+        Self { forms: vec![Form::new(&exact.about(origin))], moved: 0.0 }
     }
 
     /// What is known of a quantity on a box of the patch.

@@ -4,13 +4,14 @@
 //!   elementary surfaces      closed forms                               (`carrier`)
 //!   others                   climbs from samples: a good inner bound    (`climb`)
 //!                            branch and bound over boxes                (`search`)
-//!                              range of a box: hulls of derivatives (`glance`), slopes (`cell`),
-//!                              sign of one polynomial (`level`)
+//!                              range of a box: hulls of derivatives (`glance`), cubic models (`local`)
+//!   singular boxes           orders of growth: bounded by nothing?      (`growth`)
 //! ```
 //!
 //! The inner bound of an extreme is attained (proven at the middle of a box), the outer one holds everywhere. At a collapsed edge
 //! that is a smooth pole the vanishing factors are divided out; where the parametrisation is singular otherwise (tips, cusps)
-//! curvatures are not bounded by any box: such boxes are excluded once they are narrow, and reported.
+//! curvatures are not bounded by any box: such boxes are excluded once they are narrow, and reported. The search is then run again
+//! over the rest.
 //!
 //! Limit: beside a singularity the cost grows; the budget then ends the search, with honest bounds.
 
@@ -18,17 +19,24 @@ use super::carrier::Elementary;
 use super::cell::{Bending, Known, check_degree};
 use super::climb::places;
 use super::glance::glance;
+use super::growth::unbounded;
 use super::interval::Interval;
 use super::local::{Local, Room};
 use super::net::Nets;
 use super::request::{
-    Quantity, Range, RangeOptions, areas_inside, check, collapsed_side, known, parts_inside,
+    Quantity, Range, RangeOptions, Unbounded, areas_inside, check, collapsed_side, known, parts_inside,
     patch_piece, segment_piece,
 };
-use super::search::{Field, Start, found};
+use super::search::{Field, Start, Task, found};
 use crate::bezier::Bidegree;
 use crate::error::Error;
 use crate::index::{IndexedCurve, IndexedSurface, Span, SurfaceIndex};
+
+/// Searches at most: each may meet singular boxes that the one before did not.
+const ROUNDS: usize = 3;
+
+/// Excluded areas of which the rim is looked at first.
+const MOST_RIMS: usize = 64;
 
 /// The patches of a surface.
 struct Patches<'a> {
@@ -63,6 +71,45 @@ impl Field for Patches<'_> {
     }
 }
 
+impl Patches<'_> {
+    /// Where the quantity is proven to have no bound in an area that touches sides of its patch.
+    fn unbounded(
+        &mut self,
+        &(k, s, t): &Start,
+        spans: &dyn Fn(usize) -> [Span; 2],
+    ) -> Option<Unbounded> {
+        let touched = [s[0] == 0.0, s[1] == 1.0, t[0] == 0.0, t[1] == 1.0];
+        let (mut best, mut at) = ([false; 2], None);
+        for side in (0..4).filter(|&side| touched[side]) {
+            let is_collapsed = self.index.patches[k].collapsed[side];
+            // Along the side, as it is after turning.
+            let along = if side < 2 { t } else { s };
+            let ends = [0.0, 1.0].map(|x| (x, along.contains(&x)));
+            let inside = [0.5, 0.25, 0.75].map(|x| along[0] + x * (along[1] - along[0]));
+            let inside = inside.map(|x| (x, is_collapsed));
+            for (x, _) in inside.into_iter().chain(ends).filter(|place| place.1) {
+                let end = (side % 2) as f64;
+                let corner = x.round();
+                let corner = if side < 2 { [end, corner] } else { [corner, end] };
+                let (net, is_mirrored) = self.nets.net(k, corner).turned(side);
+                let (net, moved) = if is_collapsed { net.collapsed() } else { (net, 0.0) };
+                let sign = if is_mirrored { -1.0 } else { 1.0 };
+                let found = unbounded(&net, x, self.quantity, sign);
+                if found != [false; 2] {
+                    self.moved = self.moved.max(moved);
+                    let [u, v] = spans(k);
+                    let place = if side < 2 { [end, x] } else { [x, end] };
+                    at = at.or(Some([u.global(place[0]), v.global(place[1])]));
+                    best = [best[0] || found[0], best[1] || found[1]];
+                }
+            }
+        }
+        let [u, v] = spans(k);
+        let domain = [u.global(s[0]), u.global(s[1]), v.global(t[0]), v.global(t[1])];
+        at.map(|at| Unbounded { at, domain, falls: best[0], grows: best[1] })
+    }
+}
+
 /// The range of a curvature over a surface or a part of it.
 ///
 /// Cost: some ten microseconds a box; elementary surfaces take a box a patch, calm bicubic ones some hundred boxes. `poll` is asked
@@ -84,9 +131,15 @@ pub fn surface_range(
     let spans = |k: usize| [index.patches[k].u, index.patches[k].v];
     let scale = index.frame.scale;
     let factor = if quantity == Quantity::Gaussian { scale * scale } else { scale };
-    if let Some(mut field) = Elementary::new(index, quantity, &starts, options.relative) {
-        let range = found(&mut field, &starts, &[], &spans, factor, options, poll)?;
-        return Ok(Range { moved: field.moved / scale, ..range });
+    let task = Task { starts: &starts, places: &[], left_out: &[], spans: &spans, factor };
+    let elementary = |is_loose: bool, poll: &mut dyn FnMut() -> bool| {
+        let field = Elementary::new(index, quantity, &starts, options.relative, is_loose);
+        let Some(mut field) = field else { return Ok(None) };
+        let found = found(&mut field, &task, options, poll)?;
+        Ok(Some(Range { moved: field.moved / scale, ..found.range }))
+    };
+    if let Some(range) = elementary(false, poll)? {
+        return Ok(range);
     }
     let mut field = Patches {
         index,
@@ -97,8 +150,47 @@ pub fn surface_range(
         room: Room::default(),
     };
     let thought = places(surface.surface(), &spans, &starts, quantity, options.side);
-    let range = found(&mut field, &starts, &thought, &spans, factor, options, poll)?;
-    Ok(Range { moved: field.moved / scale, ..range })
+    let mut all = found(&mut field, &Task { places: &thought, ..task }, options, poll)?;
+    if !all.range.proven
+        && let Some(range) = elementary(true, poll)?
+    {
+        return Ok(range);
+    }
+    let (mut left_out, mut boxes) = (Vec::new(), all.range.boxes);
+    let mut unbounded = Vec::new();
+    // What is beside a singularity is not known before it has been met once.
+    for _ in 0..ROUNDS {
+        if all.excluded.is_empty() {
+            break;
+        }
+        for area in &all.excluded {
+            unbounded.extend(field.unbounded(area, &spans));
+        }
+        left_out.append(&mut all.excluded);
+        let mut around = thought.clone();
+        around.extend(left_out.iter().take(MOST_RIMS).flat_map(rim));
+        all = found(&mut field, &Task { places: &around, left_out: &left_out, ..task }, options, poll)?;
+        boxes += all.range.boxes;
+    }
+    let rest_proven = all.is_complete && all.excluded.is_empty();
+    Ok(Range { moved: field.moved / scale, unbounded, boxes, rest_proven, ..all.range })
+}
+
+/// Places around an area inside its piece.
+fn rim(&(k, s, t): &Start) -> Vec<Start> {
+    let mut places = Vec::new();
+    for x in [0.1, 0.3, 0.5, 0.7, 0.9] {
+        let on = |[a, b]: [f64; 2]| [a + x * (b - a); 2];
+        for end in [0, 1] {
+            if s[end] > 0.0 && s[end] < 1.0 {
+                places.push((k, [s[end]; 2], on(t)));
+            }
+            if t[end] > 0.0 && t[end] < 1.0 {
+                places.push((k, on(s), [t[end]; 2]));
+            }
+        }
+    }
+    places
 }
 
 /// The segments of a curve.
@@ -140,7 +232,9 @@ pub fn curve_range(
     let nothing = Span { ends: [0.0; 2], balance: 1.0 };
     let spans_of = |k: usize| [nothing, spans[k]];
     let scale = index.frame.scale;
-    let mut range = found(&mut field, &starts, &[], &spans_of, scale, options, poll)?;
+    let (starts, factor) = (&starts, scale);
+    let task = Task { starts, places: &[], left_out: &[], spans: &spans_of, factor };
+    let mut range = found(&mut field, &task, options, poll)?.range;
     range.at_least = [range.at_least[1], 0.0];
     range.at_greatest = [range.at_greatest[1], 0.0];
     for area in &mut range.excluded {
