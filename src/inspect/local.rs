@@ -30,6 +30,10 @@ use crate::index::SurfaceIndex;
 /// Greatest distance of the poles next to a pole from a plane that counts as rounding, for a box diagonal of 1 to 2.
 const ROUNDING: f64 = 2e-13;
 
+/// The same as a share of the greatest coordinate: files have 15 digits, and a plane through three rounded points is off by
+/// some times that.
+const WRITTEN: f64 = 2e-14;
+
 /// A polynomial and its derivatives by s, t, ss, st and tt.
 struct Jet([Polynomial; 6]);
 
@@ -169,7 +173,7 @@ impl Form {
         let across = cross(third, along);
         let axes = [along, scaled(across, 1.0 / norm(across)), third];
         let gap = ways.iter().map(|way| dot(*way, third).abs()).fold(0.0, f64::max);
-        if gap.is_nan() || gap > ROUNDING {
+        if gap.is_nan() || gap > ROUNDING.max(WRITTEN * nets.magnitude()) {
             return None;
         }
         // The axes are unit vectors and normal to each other up to rounding: that much the patch is sheared.
@@ -248,9 +252,9 @@ impl Form {
                 let Some(d) = self.derivatives(s, t, room) else { return (None, [0.0; 2]) };
                 let [s, t] = &d.first;
                 let normal = outer(s, t);
-                let metric = [inner(s, s), inner(s, t), inner(t, t)];
+                let metric = [inner(s, s), inner(s, t)];
                 let second = [0, 1, 2].map(|k| inner(&normal, &d.second[k]));
-                made(metric, inner(&normal, &normal), second)
+                made(metric, inner(&normal, &normal), second, [s, t, &normal])
             }
         }
     }
@@ -290,24 +294,26 @@ impl Form {
             twice(&z[0]).plus(&t.times(&over(&z[2].scaled(4.0), &z[5]))),
         ];
         let q = inner(&normal, &by_tt);
-        let metric = [inner(&by_s, &by_s), inner(&by_s, &by_t), inner(&by_t, &by_t)];
-        made(metric, inner(&normal, &normal), [l, m, q])
+        let metric = [inner(&by_s, &by_s), inner(&by_s, &by_t)];
+        made(metric, inner(&normal, &normal), [l, m, q], [&by_s, &by_t, &normal])
     }
 }
 
-/// The shape operator from the fundamental forms, and how much they vary along either parameter.
+/// The shape operator from the fundamental forms; and along which parameter a shorter box would tell more: as the operator varies
+/// or, when its models are coarser than that, as the `frame` turns.
 fn made(
-    [e, f, g]: [Model; 3],
+    [e, f]: [Model; 2],
     area: Model,
     [l, m, q]: [Model; 3],
+    frame: [&[Model; 3]; 3],
 ) -> (Option<Operator>, [f64; 2]) {
-    let share = |f: &Model| {
-        let size = f.c[0].abs().max(f64::MIN_POSITIVE);
-        f.variation().map(|x| x / size)
-    };
-    let (e_, g_, area_) = (share(&e), share(&g), share(&area));
-    let mut turn = [0, 1].map(|k| e_[k] + g_[k] + area_[k]);
+    let is_zero = |f: &Model| f.rest == 0.0 && f.c == [0.0; 10];
     let operator = (|| {
+        if [&l, &m, &q].into_iter().all(is_zero) {
+            // Exactly flat: there is nothing to divide.
+            let zero = Model::constant(0.0);
+            return Some(Operator { a: zero, b: zero, d: zero });
+        }
         let (inverse, j) = (e.reciprocal()?, area.reciprocal_sqrt()?);
         let ratio = f.times(&inverse);
         let sheared = m.minus(&ratio.times(&l));
@@ -318,9 +324,19 @@ fn made(
         Some(Operator { a, b, d })
     })();
     if let Some(Operator { a, b, d }) = &operator {
-        let size = a.c[0].abs().max(d.c[0].abs()).max(b.c[0].abs()).max(1e-9);
-        let (a, b, d) = (a.variation(), b.variation(), d.variation());
-        turn = [0, 1].map(|k| turn[k] + (a[k] + b[k] + d[k]) / size);
+        let each = [a, b, d].map(Model::variation);
+        let varies = [0, 1].map(|k| each[0][k] + each[1][k] + each[2][k]);
+        if a.rest + b.rest + d.rest < 0.5 * (varies[0] + varies[1]) {
+            return (operator, varies);
+        }
+    }
+    let mut turn = [0.0; 2];
+    for vector in frame {
+        let size = norm(vector.map(|x| x.c[0])).max(f64::MIN_POSITIVE);
+        for component in vector {
+            let varies = component.variation();
+            turn = [0, 1].map(|k| turn[k] + varies[k] / size);
+        }
     }
     (operator, turn)
 }
@@ -384,6 +400,11 @@ impl Local {
         let exact = nets.net(k, [0.5; 2]);
         let origin = exact.point(exact.degree.count() / 2);
         Self { forms: vec![Form::new(&exact.about(origin))], moved: 0.0 }
+    }
+
+    /// Whether what is singular at its collapsed sides is divided out.
+    pub fn is_smooth(&self) -> bool {
+        self.forms.iter().any(|form| form.pole.is_some())
     }
 
     /// What is known of a quantity on a box of the patch.

@@ -69,6 +69,11 @@ impl<'a> Nets<'a> {
         Self { surface, index, rows: vec![None; count / columns], columns: vec![None; columns] }
     }
 
+    /// The greatest coordinate of the surface, in index lengths.
+    pub fn magnitude(&self) -> f64 {
+        self.index.frame.magnitude * self.index.frame.scale
+    }
+
     /// The net of patch `k` about the pole of the surface that shapes it in corner (`at[0]` p, `at[1]` q), in the middle at 1/2.
     pub fn net(&mut self, k: usize, at: [f64; 2]) -> ExactNet {
         let (surface, index) = (self.surface, self.index);

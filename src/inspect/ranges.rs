@@ -38,6 +38,9 @@ const ROUNDS: usize = 3;
 /// Excluded areas of which the rim is looked at first.
 const MOST_RIMS: usize = 64;
 
+/// Excluded areas of a piece that are kept apart.
+const MOST_AREAS: usize = 8;
+
 /// The patches of a surface.
 struct Patches<'a> {
     index: &'a SurfaceIndex,
@@ -67,7 +70,8 @@ impl Field for Patches<'_> {
     }
 
     fn across(&self, (k, s, t): Start) -> Option<usize> {
-        collapsed_side(self.index, k, s, t)
+        let is_smooth = self.locals[k].as_ref().is_some_and(Local::is_smooth);
+        if is_smooth { None } else { collapsed_side(self.index, k, s, t) }
     }
 }
 
@@ -78,7 +82,9 @@ impl Patches<'_> {
         &(k, s, t): &Start,
         spans: &dyn Fn(usize) -> [Span; 2],
     ) -> Option<Unbounded> {
+        let is_smooth = self.locals[k].as_ref().is_some_and(Local::is_smooth);
         let touched = [s[0] == 0.0, s[1] == 1.0, t[0] == 0.0, t[1] == 1.0];
+        let touched = touched.map(|touched| touched && !is_smooth);
         let (mut best, mut at) = ([false; 2], None);
         for side in (0..4).filter(|&side| touched[side]) {
             let is_collapsed = self.index.patches[k].collapsed[side];
@@ -136,7 +142,9 @@ pub fn surface_range(
         let field = Elementary::new(index, quantity, &starts, options.relative, is_loose);
         let Some(mut field) = field else { return Ok(None) };
         let found = found(&mut field, &task, options, poll)?;
-        Ok(Some(Range { moved: field.moved / scale, ..found.range }))
+        // A cone's tip is not the carrier's business.
+        let range = Some(found.range).filter(|range| range.proven);
+        Ok(range.map(|range| Range { moved: field.moved / scale, ..range }))
     };
     if let Some(range) = elementary(false, poll)? {
         return Ok(range);
@@ -167,6 +175,7 @@ pub fn surface_range(
             unbounded.extend(field.unbounded(area, &spans));
         }
         left_out.append(&mut all.excluded);
+        join(&mut left_out);
         let mut around = thought.clone();
         around.extend(left_out.iter().take(MOST_RIMS).flat_map(rim));
         all = found(&mut field, &Task { places: &around, left_out: &left_out, ..task }, options, poll)?;
@@ -174,6 +183,22 @@ pub fn surface_range(
     }
     let rest_proven = all.is_complete && all.excluded.is_empty();
     Ok(Range { moved: field.moved / scale, unbounded, boxes, rest_proven, ..all.range })
+}
+
+/// Makes one area of those of a piece that are many.
+fn join(areas: &mut Vec<Start>) {
+    areas.sort_by_key(|area| area.0);
+    let mut joined: Vec<Start> = Vec::new();
+    for group in areas.chunk_by(|a, b| a.0 == b.0) {
+        if group.len() <= MOST_AREAS {
+            joined.extend(group);
+            continue;
+        }
+        let over = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+        let all = |all: Start, one: &Start| (all.0, over(all.1, one.1), over(all.2, one.2));
+        joined.push(group.iter().fold(group[0], all));
+    }
+    *areas = joined;
 }
 
 /// Places around an area inside its piece.

@@ -173,9 +173,6 @@ impl Search<'_> {
             if self.boxes % 256 == 255 && poll() {
                 return Err(Error::Cancelled);
             }
-            if self.boxes % 512 < 2 && std::env::var_os("FPDEBUG").is_some() {
-                eprintln!("DEBUG {:?} best {:?} boxes {}", area, self.greatest.value, self.boxes);
-            }
             let excess = self.excess(&area);
             if excess < before {
                 // What is attained has come nearer since.
