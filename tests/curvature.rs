@@ -186,9 +186,8 @@ fn a_flat_fan_has_no_curvature_and_a_round_one_is_a_pole() {
     let found = range(&flat, Quantity::Sharpest, None);
     assert!(found.proven && found.greatest[1] <= 1e-12 && found.unbounded.is_empty(), "{found:?}");
     // A tilted one is flat up to the rounding of its poles.
-    let tilted = fan(&[[1., 0.1, 0.7], [1.3, 1., 0.3], [0., 1.1, -0.4]].map(|[x, y, _]| {
-        [x, y, 0.3 * x - 0.7 * y]
-    }));
+    let tilted = fan(&[[1., 0.1, 0.7], [1.3, 1., 0.3], [0., 1.1, -0.4]]
+        .map(|[x, y, _]| [x, y, 0.3 * x - 0.7 * y]));
     let found = range(&tilted, Quantity::Sharpest, None);
     assert!(found.proven && found.greatest[1] <= 1e-9 && found.moved < 1e-12, "{found:?}");
 }
@@ -219,7 +218,13 @@ fn bounds_hold_dense_samples_of_random_hostile_surfaces() {
         // Spans of very different lengths.
         let knots = |random: &mut Random, degree: usize, count: usize| {
             let mut inner: Vec<f64> = (0..count - degree - 1)
-                .map(|_| if round % 5 == 0 { 0.5 + random.scale(-9.0, -2.0) } else { random.between(0.1, 0.9) })
+                .map(|_| {
+                    if round % 5 == 0 {
+                        0.5 + random.scale(-9.0, -2.0)
+                    } else {
+                        random.between(0.1, 0.9)
+                    }
+                })
                 .collect();
             inner.sort_by(f64::total_cmp);
             let ends = |x: f64| std::iter::repeat_n(x, degree + 1);

@@ -287,7 +287,8 @@ fn isophotes_of_a_sphere_are_circles_one_for_each_band() {
     let pixels = from_above(&ellipsoid([1.0; 3]), Pattern::Isophotes, 8, [0.0; 2]);
     // From the middle outward the angle between normal and light goes from 0 to a right angle; the last band is a pixel wide.
     for (dx, dy) in [(1i64, 0i64), (-1, 0), (0, 1), (0, -1)] {
-        let at = |k: i64| brightness(&pixels, 400, (200 + dx * k) as usize, (200 + dy * k) as usize);
+        let at =
+            |k: i64| brightness(&pixels, 400, (200 + dx * k) as usize, (200 + dy * k) as usize);
         let row: Vec<f64> = (0..187).map(at).collect();
         let count = stripes(&row);
         assert!((7..=8).contains(&count), "{dx} {dy} {count}");
@@ -316,9 +317,8 @@ fn lamps_over_a_plane_are_straight_lines_at_equal_distances() {
     let flat = plane([[0., 0., 0.], [0., 1., 0.], [1., 0., 0.], [1., 1., 0.]]);
     for pattern in [Pattern::ReflectionLines, Pattern::HighlightLines] {
         let pixels = from_above(flat.surface(), pattern, 12, [0.0; 2]);
-        let line = |y: usize| {
-            (14..386).map(|x| brightness(&pixels, 400, x, y)).collect::<Vec<f64>>()
-        };
+        let line =
+            |y: usize| (14..386).map(|x| brightness(&pixels, 400, x, y)).collect::<Vec<f64>>();
         let row = line(200);
         let count = stripes(&row);
         // The plane is 0.94 of the picture wide: 11.3 lamps.
@@ -331,10 +331,8 @@ fn lamps_over_a_plane_are_straight_lines_at_equal_distances() {
     // Seen in a tube along y they lie nearer to each other where it turns away.
     let (knots, poles) = circle([0.0; 3], 1.0);
     let poles: Vec<(Vector, f64)> = poles.into_iter().collect();
-    let tube: Vec<Vector> = poles
-        .iter()
-        .flat_map(|(p, _)| [[p[0], 0.0, p[2]], [p[0], 2.0, p[2]]])
-        .collect();
+    let tube: Vec<Vector> =
+        poles.iter().flat_map(|(p, _)| [[p[0], 0.0, p[2]], [p[0], 2.0, p[2]]]).collect();
     let weights: Vec<f64> = poles.iter().flat_map(|(_, w)| [*w, *w]).collect();
     let count = poles.len();
     let tube = Surface::new(&knots, &LINE, 2, 1, &tube, count, 2, Some(&weights)).unwrap();

@@ -4,7 +4,8 @@ use super::curve::{self, fpt_curve};
 use super::inspect_records::{
     choice, fpt_inspect_continuity, fpt_inspect_curvature, fpt_inspect_distance, fpt_inspect_kind,
     fpt_inspect_options, fpt_inspect_pattern, fpt_inspect_picture_options, fpt_inspect_place,
-    fpt_inspect_quantity, fpt_inspect_range, fpt_inspect_range_flag, fpt_inspect_side, fpt_inspect_tooth, sized_or_default,
+    fpt_inspect_quantity, fpt_inspect_range, fpt_inspect_range_flag, fpt_inspect_side,
+    fpt_inspect_tooth, sized_or_default,
 };
 use super::limits::check_inside_at;
 use super::memory::{array, output, place, product, shared, write};

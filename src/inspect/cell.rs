@@ -272,11 +272,8 @@ pub(super) struct Known {
 
 impl Known {
     /// Nothing.
-    pub const ENTIRE: Self = Self {
-        middle: Interval::ENTIRE,
-        range: Interval::ENTIRE,
-        gradient: [Interval::ENTIRE; 2],
-    };
+    pub const ENTIRE: Self =
+        Self { middle: Interval::ENTIRE, range: Interval::ENTIRE, gradient: [Interval::ENTIRE; 2] };
 }
 
 impl From<Slope<2>> for Known {

@@ -187,7 +187,11 @@ impl Form {
             if degree.t < flat {
                 // Nothing but the flat rows.
                 let degree = Bidegree { s: 0, t: 0 };
-                return Jet::new(&Exact { coefficients: vec![Doubled::default()], degree, error: 0.0 });
+                return Jet::new(&Exact {
+                    coefficients: vec![Doubled::default()],
+                    degree,
+                    error: 0.0,
+                });
             }
             let coefficients = (0..degree.count())
                 .map(|k| {

@@ -291,7 +291,10 @@ impl Model {
     fn powered(&self, series: [f64; 7], power: impl Fn(f64) -> f64) -> Option<Self> {
         let Interval { low, high } = self.range();
         let base = 0.5 * (low + high);
-        if low.is_nan() || low <= 0.0 || !base.is_finite() || high - low > 2.0 * MOST_VARIATION * base
+        if low.is_nan()
+            || low <= 0.0
+            || !base.is_finite()
+            || high - low > 2.0 * MOST_VARIATION * base
         {
             return None;
         }
@@ -319,15 +322,13 @@ impl Model {
 
     /// The root of a positive function.
     pub fn sqrt(&self) -> Option<Self> {
-        let series =
-            [1.0, 0.5, -0.125, 0.0625, -5.0 / 128.0, 7.0 / 256.0, -21.0 / 1024.0];
+        let series = [1.0, 0.5, -0.125, 0.0625, -5.0 / 128.0, 7.0 / 256.0, -21.0 / 1024.0];
         self.powered(series, f64::sqrt)
     }
 
     /// 1 / root of a positive function.
     pub fn reciprocal_sqrt(&self) -> Option<Self> {
-        let series =
-            [1.0, -0.5, 0.375, -0.3125, 35.0 / 128.0, -63.0 / 256.0, 231.0 / 1024.0];
+        let series = [1.0, -0.5, 0.375, -0.3125, 35.0 / 128.0, -63.0 / 256.0, 231.0 / 1024.0];
         self.powered(series, |x| 1.0 / x.sqrt())
     }
 }
@@ -365,9 +366,8 @@ mod tests {
             let mut net = || (0..degree.count()).map(|_| random()).collect::<Vec<f64>>();
             let (f, mut g) = (net(), net());
             g.iter_mut().for_each(|x| *x = 2.0 + 0.6 * *x);
-            let make = |f: &[f64]| {
-                Model::of(f, degree, 0.0, [&tables[0], &tables[1]], &mut Vec::new())
-            };
+            let make =
+                |f: &[f64]| Model::of(f, degree, 0.0, [&tables[0], &tables[1]], &mut Vec::new());
             let (a, b) = (make(&f), make(&g));
             let product = a.times(&b);
             let powers = [b.reciprocal(), b.sqrt(), b.reciprocal_sqrt()].map(Option::unwrap);

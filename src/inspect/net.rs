@@ -126,9 +126,11 @@ impl<'a> Nets<'a> {
                 for j in 0..=q {
                     let terms = (0..=q).map(|k| by_v[j * (q + 1) + k] * half[i * (q + 1) + k]);
                     poles.push(terms.fold(Doubled::default(), |sum, x| sum + x));
-                    zeros.push((0..=q).all(|k| {
-                        by_v[j * (q + 1) + k].is_zero() || half_zeros[i * (q + 1) + k]
-                    }));
+                    zeros.push(
+                        (0..=q).all(|k| {
+                            by_v[j * (q + 1) + k].is_zero() || half_zeros[i * (q + 1) + k]
+                        }),
+                    );
                 }
             }
         }

@@ -5,9 +5,7 @@
 
 use super::interval::Interval;
 use super::slope::Slope;
-use crate::bezier::{
-    Bidegree, binomial, convolve, cut_2d, derivative, scale_down_2d, scale_up_2d,
-};
+use crate::bezier::{Bidegree, binomial, convolve, cut_2d, derivative, scale_down_2d, scale_up_2d};
 use crate::bounds::{HALF_ULP, extent};
 use crate::index::product_steps;
 

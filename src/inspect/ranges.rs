@@ -24,8 +24,8 @@ use super::interval::Interval;
 use super::local::{Local, Room};
 use super::net::Nets;
 use super::request::{
-    Quantity, Range, RangeOptions, Unbounded, areas_inside, check, collapsed_side, known, parts_inside,
-    patch_piece, segment_piece,
+    Quantity, Range, RangeOptions, Unbounded, areas_inside, check, collapsed_side, known,
+    parts_inside, patch_piece, segment_piece,
 };
 use super::search::{Field, Start, Task, found};
 use crate::bezier::Bidegree;
@@ -34,6 +34,9 @@ use crate::index::{IndexedCurve, IndexedSurface, Span, SurfaceIndex};
 
 /// Searches at most: each may meet singular boxes that the one before did not.
 const ROUNDS: usize = 3;
+
+/// Boxes at most before closed forms that hold up to rounding are tried.
+const SHORT: u64 = 1_000;
 
 /// Excluded areas of which the rim is looked at first.
 const MOST_RIMS: usize = 64;
@@ -138,15 +141,17 @@ pub fn surface_range(
     let scale = index.frame.scale;
     let factor = if quantity == Quantity::Gaussian { scale * scale } else { scale };
     let task = Task { starts: &starts, places: &[], left_out: &[], spans: &spans, factor };
-    let elementary = |is_loose: bool, poll: &mut dyn FnMut() -> bool| {
-        let field = Elementary::new(index, quantity, &starts, options.relative, is_loose);
-        let Some(mut field) = field else { return Ok(None) };
+    let elementary =
+        |is_loose: bool| Elementary::new(index, quantity, &starts, options.relative, is_loose);
+    let closed = |mut field: Elementary, poll: &mut dyn FnMut() -> bool| {
         let found = found(&mut field, &task, options, poll)?;
         // A cone's tip is not the carrier's business.
         let range = Some(found.range).filter(|range| range.proven);
-        Ok(range.map(|range| Range { moved: field.moved / scale, ..range }))
+        Ok::<_, Error>(range.map(|range| Range { moved: field.moved / scale, ..range }))
     };
-    if let Some(range) = elementary(false, poll)? {
+    if let Some(field) = elementary(false)
+        && let Some(range) = closed(field, poll)?
+    {
         return Ok(range);
     }
     let mut field = Patches {
@@ -158,11 +163,20 @@ pub fn surface_range(
         room: Room::default(),
     };
     let thought = places(surface.surface(), &spans, &starts, quantity, options.side);
-    let mut all = found(&mut field, &Task { places: &thought, ..task }, options, poll)?;
-    if !all.range.proven
-        && let Some(range) = elementary(true, poll)?
+    // Closed forms of a surface that is an elementary one up to rounding are next, when this takes long.
+    let loose = elementary(true);
+    let most = if loose.is_some() { SHORT.min(options.budget) } else { options.budget };
+    let first = RangeOptions { budget: most, ..*options };
+    let mut all = found(&mut field, &Task { places: &thought, ..task }, &first, poll)?;
+    if let Some(loose) = loose
+        && !all.range.proven
     {
-        return Ok(range);
+        if let Some(range) = closed(loose, poll)? {
+            return Ok(range);
+        }
+        if !all.is_complete {
+            all = found(&mut field, &Task { places: &thought, ..task }, options, poll)?;
+        }
     }
     let (mut left_out, mut boxes) = (Vec::new(), all.range.boxes);
     let mut unbounded = Vec::new();
@@ -178,7 +192,12 @@ pub fn surface_range(
         join(&mut left_out);
         let mut around = thought.clone();
         around.extend(left_out.iter().take(MOST_RIMS).flat_map(rim));
-        all = found(&mut field, &Task { places: &around, left_out: &left_out, ..task }, options, poll)?;
+        all = found(
+            &mut field,
+            &Task { places: &around, left_out: &left_out, ..task },
+            options,
+            poll,
+        )?;
         boxes += all.range.boxes;
     }
     let rest_proven = all.is_complete && all.excluded.is_empty();
