@@ -23,7 +23,7 @@ use super::net::{Exact, ExactNet, Nets};
 use super::polynomial::Polynomial;
 use super::request::{Quantity, known};
 use super::slope::Slope;
-use crate::bezier::{Bidegree, cut_2d};
+use crate::bezier::{Bidegree, cut};
 use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, scaled};
 use crate::index::SurfaceIndex;
 
@@ -67,12 +67,15 @@ pub(super) struct Local {
     pub moved: f64,
 }
 
-/// What all boxes share.
+/// What all boxes share, and the matrices that cut nets to the present one.
 #[derive(Default)]
 pub(super) struct Room {
     tables: Vec<Option<Table>>,
-    cut: Vec<f64>,
+    ends: [[f64; 2]; 2],
+    /// By direction and degree; empty: not made yet.
+    cuts: [Vec<Vec<f64>>; 2],
     half: Vec<f64>,
+    cut: Vec<f64>,
 }
 
 /// The shape operator on a box.
@@ -98,22 +101,64 @@ impl Room {
         }
     }
 
-    fn model(&mut self, f: &Polynomial, s: [f64; 2], t: [f64; 2]) -> Model {
+    /// Begins with a box.
+    fn begin(&mut self, ends: [[f64; 2]; 2]) {
+        if ends != self.ends {
+            self.cuts.iter_mut().flatten().for_each(Vec::clear);
+            self.ends = ends;
+        }
+    }
+
+    /// Makes the matrix that cuts a net of degree n in one direction: row k has the weights of coefficient k in all new ones.
+    fn matrix(&mut self, direction: usize, n: usize) {
+        let cuts = &mut self.cuts[direction];
+        if cuts.len() <= n {
+            cuts.resize(n + 1, Vec::new());
+        }
+        if !cuts[n].is_empty() {
+            return;
+        }
+        // The cut of the unit vectors, all at once, is its transpose.
+        let (width, [a, b]) = (n + 1, self.ends[direction]);
+        let mut all: Vec<f64> =
+            (0..width * width).map(|k| f64::from(u8::from(k % (width + 1) == 0))).collect();
+        cut(&mut all, n, width, width, a, b);
+        cuts[n].extend((0..width * width).map(|k| all[k % width * width + k / width]));
+    }
+
+    /// Rounding: entries of a matrix are off by 8 half ulps a degree, the sum by one a term.
+    fn model(&mut self, f: &Polynomial) -> Model {
         let Bidegree { s: m, t: n } = f.degree;
         self.table(m);
         self.table(n);
+        self.matrix(0, m);
+        self.matrix(1, n);
+        let width = n + 1;
+        let (by_s, by_t) = (&self.cuts[0][m], &self.cuts[1][n]);
+        self.half.clear();
+        self.half.resize(f.coefficients.len(), 0.0);
+        let rows = f.coefficients.chunks_exact(width);
+        for (row, out) in rows.zip(self.half.chunks_exact_mut(width)) {
+            for (x, weights) in row.iter().zip(by_t.chunks_exact(width)) {
+                out.iter_mut().zip(weights).for_each(|(out, weight)| *out += x * weight);
+            }
+        }
         self.cut.clear();
-        self.cut.extend_from_slice(&f.coefficients);
-        cut_2d(&mut self.cut, f.degree, s, t);
-        let error = f.error + (8 * (m + n) + 8) as f64 * HALF_ULP * f.size();
+        self.cut.resize(f.coefficients.len(), 0.0);
+        for (row, weights) in self.half.chunks_exact(width).zip(by_s.chunks_exact(m + 1)) {
+            for (out, weight) in self.cut.chunks_exact_mut(width).zip(weights) {
+                out.iter_mut().zip(row).for_each(|(out, x)| *out += weight * x);
+            }
+        }
+        let error = f.error + (10 * (m + n) + 16) as f64 * HALF_ULP * f.size();
         let (Some(along_s), Some(along_t)) = (&self.tables[m], &self.tables[n]) else {
             return Model { c: [0.0; 10], rest: f64::INFINITY };
         };
-        Model::of(&self.cut, f.degree, error, [along_s, along_t], &mut self.half)
+        Model::of(&self.cut, f.degree, error, [along_s, along_t])
     }
 
-    fn models(&mut self, jet: &Jet, s: [f64; 2], t: [f64; 2]) -> [Model; 6] {
-        std::array::from_fn(|k| self.model(&jet.0[k], s, t))
+    fn models(&mut self, jet: &Jet) -> [Model; 6] {
+        std::array::from_fn(|k| self.model(&jet.0[k]))
     }
 }
 
@@ -222,21 +267,20 @@ impl Form {
         }
     }
 
-    fn derivatives(&self, s: [f64; 2], t: [f64; 2], room: &mut Room) -> Option<Derivatives> {
+    fn derivatives(&self, room: &mut Room) -> Option<Derivatives> {
         let Some(weight) = &self.weight else {
-            let model = |k: usize, room: &mut Room| {
-                [0, 1, 2].map(|c| room.model(&self.position[c].0[k], s, t))
-            };
+            let model =
+                |k: usize, room: &mut Room| [0, 1, 2].map(|c| room.model(&self.position[c].0[k]));
             let first = [model(1, room), model(2, room)];
             return Some(Derivatives {
                 first,
                 second: [model(3, room), model(4, room), model(5, room)],
             });
         };
-        let w = room.models(weight, s, t);
+        let w = room.models(weight);
         let inverse = w[0].reciprocal()?;
         let parts = [0, 1, 2].map(|c| {
-            let mut f = room.models(&self.position[c], s, t);
+            let mut f = room.models(&self.position[c]);
             // About a point on the box: what is multiplied with the derivatives of the weight is small then.
             let centre = f[0].c[0] / w[0].c[0];
             for (f, w) in f.iter_mut().zip(&w) {
@@ -249,11 +293,11 @@ impl Form {
     }
 
     /// The shape operator on a box and how much the patch turns along s and t there.
-    fn operator(&self, s: [f64; 2], t: [f64; 2], room: &mut Room) -> (Option<Operator>, [f64; 2]) {
+    fn operator(&self, room: &mut Room) -> (Option<Operator>, [f64; 2]) {
         match self.pole {
-            Some(_) => self.operator_at_pole(s, t, room),
+            Some(_) => self.operator_at_pole(room),
             None => {
-                let Some(d) = self.derivatives(s, t, room) else { return (None, [0.0; 2]) };
+                let Some(d) = self.derivatives(room) else { return (None, [0.0; 2]) };
                 let [s, t] = &d.first;
                 let normal = outer(s, t);
                 let metric = [inner(s, s), inner(s, t)];
@@ -263,22 +307,17 @@ impl Form {
         }
     }
 
-    fn operator_at_pole(
-        &self,
-        s: [f64; 2],
-        t: [f64; 2],
-        room: &mut Room,
-    ) -> (Option<Operator>, [f64; 2]) {
-        let plain = [0, 1, 2].map(|c| room.models(&self.position[c], s, t));
+    fn operator_at_pole(&self, room: &mut Room) -> (Option<Operator>, [f64; 2]) {
+        let plain = [0, 1, 2].map(|c| room.models(&self.position[c]));
         let [x, y, z] = match &self.weight {
             None => plain,
             Some(weight) => {
-                let w = room.models(weight, s, t);
+                let w = room.models(weight);
                 let Some(inverse) = w[0].reciprocal() else { return (None, [0.0; 2]) };
                 plain.map(|f| quotient(&f, &w, &inverse))
             }
         };
-        let t = Model::coordinate(1, t);
+        let t = Model::coordinate(1, room.ends[1]);
         let over = |f: &Model, more: &Model| f.plus(&t.times(more));
         let twice = |f: &Model| f.scaled(2.0);
         // S_tz / t and S_stz / t.
@@ -422,8 +461,8 @@ impl Local {
             _ => false,
         };
         let form = self.forms.iter().find(|form| !is_far(form)).unwrap_or(&self.forms[0]);
-        let [s, t] = form.turned(s, t);
-        let (operator, turn) = form.operator(s, t, room);
+        room.begin(form.turned(s, t));
+        let (operator, turn) = form.operator(room);
         let sign = if form.is_mirrored { -1.0 } else { 1.0 };
         let known = match operator {
             Some(operator) => operator.known(quantity, sign),

@@ -43,10 +43,10 @@ pub(super) struct Model {
 /// Matrices between Bernstein coefficients of a degree and Chebyshev coefficients up to degree 4.
 #[derive(Clone, Debug)]
 pub(super) struct Table {
-    /// `to[i]`: weights of the Bernstein coefficients in coefficient i.
-    to: [Vec<f64>; ORDER],
-    /// `from[i]`: Bernstein coefficients of the Chebyshev polynomial of degree i.
-    from: [Vec<f64>; ORDER],
+    /// `to[k]`: weights of Bernstein coefficient k in the Chebyshev coefficients.
+    to: Vec<[f64; ORDER]>,
+    /// `from[k]`: Bernstein coefficient k of the Chebyshev polynomials.
+    from: Vec<[f64; ORDER]>,
 }
 
 impl Table {
@@ -83,16 +83,15 @@ impl Table {
             3 => 4.0 * power(3, k) - 3.0 * power(1, k),
             _ => 8.0 * power(4, k) - 8.0 * power(2, k) + 1.0,
         };
-        let row = |f: &dyn Fn(usize, usize) -> f64, i: usize| (0..=n).map(|k| f(i, k)).collect();
         Self {
-            to: std::array::from_fn(|i| row(&chebyshev, i)),
-            from: std::array::from_fn(|i| row(&polynomial, i)),
+            to: (0..=n).map(|k| std::array::from_fn(|i| chebyshev(i, k))).collect(),
+            from: (0..=n).map(|k| std::array::from_fn(|i| polynomial(i, k))).collect(),
         }
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
+fn sum(x: [f64; ORDER]) -> f64 {
+    (x[0] + x[1]) + (x[2] + x[3]) + x[4]
 }
 
 impl Model {
@@ -108,40 +107,28 @@ impl Model {
         model
     }
 
-    /// A polynomial with Bernstein coefficients `f`, each off by at most `error`; `work` is scratch memory.
-    pub fn of(
-        f: &[f64],
-        degree: Bidegree,
-        error: f64,
-        [along_s, along_t]: [&Table; 2],
-        work: &mut Vec<f64>,
-    ) -> Self {
-        let (rows, width) = (degree.s + 1, degree.t + 1);
-        let (m, n) = (rows.min(ORDER), width.min(ORDER));
-        work.clear();
-        for row in f.chunks_exact(width) {
-            work.extend(along_t.to[..n].iter().map(|weights| dot(weights, row)));
-        }
+    /// A polynomial with Bernstein coefficients `f`, each off by at most `error`.
+    pub fn of(f: &[f64], degree: Bidegree, error: f64, [along_s, along_t]: [&Table; 2]) -> Self {
+        let width = degree.t + 1;
         let mut at = [[0.0; ORDER]; ORDER];
-        for i in 0..m {
-            for (weight, row) in along_s.to[i].iter().zip(work.chunks_exact(n)) {
-                for (x, y) in at[i].iter_mut().zip(row) {
-                    *x += weight * y;
-                }
+        for (row, weights) in f.chunks_exact(width).zip(&along_s.to) {
+            let mut part = [0.0; ORDER];
+            for (x, by) in row.iter().zip(&along_t.to) {
+                (0..ORDER).for_each(|j| part[j] += x * by[j]);
+            }
+            for (at, weight) in at.iter_mut().zip(weights) {
+                (0..ORDER).for_each(|j| at[j] += weight * part[j]);
             }
         }
         // The coefficients of the difference bound it.
         let (mut off, mut size) = (0.0f64, 0.0f64);
-        for (k, row) in f.chunks_exact(width).enumerate() {
+        for (row, values) in f.chunks_exact(width).zip(&along_s.from) {
             let mut part = [0.0; ORDER];
-            for i in 0..m {
-                for (x, y) in part.iter_mut().zip(&at[i]) {
-                    *x += along_s.from[i][k] * y;
-                }
+            for (at, value) in at.iter().zip(values) {
+                (0..ORDER).for_each(|j| part[j] += value * at[j]);
             }
-            for (l, &x) in row.iter().enumerate() {
-                let value: f64 = (0..n).map(|j| part[j] * along_t.from[j][l]).sum();
-                let gap = (x - value).abs();
+            for (&x, by) in row.iter().zip(&along_t.from) {
+                let gap = (x - sum(std::array::from_fn(|j| part[j] * by[j]))).abs();
                 off = if gap > off { gap } else { off };
                 size = if x.abs() > size { x.abs() } else { size };
             }
@@ -337,6 +324,10 @@ impl Model {
 mod tests {
     use super::*;
 
+    fn dot(a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(b).map(|(x, y)| x * y).sum()
+    }
+
     fn at(model: &Model, x: f64, y: f64) -> f64 {
         let m = [1.0, x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y, y * y * y];
         dot(&model.c, &m)
@@ -366,8 +357,7 @@ mod tests {
             let mut net = || (0..degree.count()).map(|_| random()).collect::<Vec<f64>>();
             let (f, mut g) = (net(), net());
             g.iter_mut().for_each(|x| *x = 2.0 + 0.6 * *x);
-            let make =
-                |f: &[f64]| Model::of(f, degree, 0.0, [&tables[0], &tables[1]], &mut Vec::new());
+            let make = |f: &[f64]| Model::of(f, degree, 0.0, [&tables[0], &tables[1]]);
             let (a, b) = (make(&f), make(&g));
             let product = a.times(&b);
             let powers = [b.reciprocal(), b.sqrt(), b.reciprocal_sqrt()].map(Option::unwrap);
@@ -397,7 +387,7 @@ mod tests {
         let degree = Bidegree { s: 2, t: 1 };
         let tables = [Table::new(2), Table::new(1)];
         let f = [1.0, 2.0, -1.0, 0.5, 3.0, 1.0];
-        let model = Model::of(&f, degree, 0.0, [&tables[0], &tables[1]], &mut Vec::new());
+        let model = Model::of(&f, degree, 0.0, [&tables[0], &tables[1]]);
         assert!(model.rest < 1e-12, "{model:?}");
         let middle = bernstein(&f, degree, 0.5, 0.5);
         assert!((model.c[0] - middle).abs() < 1e-15);

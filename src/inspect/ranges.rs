@@ -279,6 +279,8 @@ pub fn curve_range(
     let (starts, factor) = (&starts, scale);
     let task = Task { starts, places: &[], left_out: &[], spans: &spans_of, factor };
     let mut range = found(&mut field, &task, options, poll)?.range;
+    // Values attained beside a cusp say nothing of the rest.
+    range.rest_proven = range.proven;
     range.at_least = [range.at_least[1], 0.0];
     range.at_greatest = [range.at_greatest[1], 0.0];
     for area in &mut range.excluded {
