@@ -163,7 +163,7 @@ pub fn surface_range(
         room: Room::default(),
     };
     let thought = places(surface.surface(), &spans, &starts, quantity, options.side);
-    // Closed forms of a surface that is an elementary one up to rounding are next, when this takes long.
+    // Where the surface is singular, closed forms that hold up to rounding say more than a long search.
     let loose = elementary(true);
     let most = if loose.is_some() { SHORT.min(options.budget) } else { options.budget };
     let first = RangeOptions { budget: most, ..*options };
@@ -171,7 +171,9 @@ pub fn surface_range(
     if let Some(loose) = loose
         && !all.range.proven
     {
-        if let Some(range) = closed(loose, poll)? {
+        let is_bounded = all.range.least[0].is_finite() && all.range.greatest[1].is_finite();
+        let is_singular = !all.excluded.is_empty() || !is_bounded;
+        if is_singular && let Some(range) = closed(loose, poll)? {
             return Ok(range);
         }
         if !all.is_complete {
