@@ -277,7 +277,7 @@ impl Exact {
             let factor = |k: usize| Doubled::new(n as f64) / Doubled::new(k as f64);
             let rows = f.chunks_exact(n + 1);
             f = rows.flat_map(|row| (1..=n).map(move |k| row[k] * factor(k))).collect();
-            error = n as f64 * error;
+            error *= n as f64;
             n -= 1;
         }
         let degree = Bidegree { s: self.degree.s, t: n };
