@@ -68,7 +68,7 @@ use cluster::clusters;
 use join::Joiner;
 pub use join::distance_to_chord;
 use overlap::rims;
-use search::{Open, Search};
+use search::{Halt, Open, Search};
 use tangent::ridges;
 
 /// Pairs of parts that are judged at most, when the caller does not say.
@@ -267,7 +267,8 @@ impl Frames {
     }
 }
 
-/// All that two surfaces have in common. `poll(judged, waiting)` is asked now and then whether to stop.
+/// All that two surfaces have in common. `poll(judged, waiting)` is asked now and then whether to stop; once the search has ended and
+/// its finds are put together, with nothing waiting.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for a length that is negative or not finite; [`Error::Unsupported`] for a surface that is a point;
@@ -285,18 +286,20 @@ pub fn intersect(
     let mut search = Search::new([sa, sb], frames.noise);
     let budget = if options.budget > 0 { options.budget } else { DEFAULT_BUDGET };
     search.run(budget, poll)?;
-    let (chains, points) = Joiner::new(&search, chord).chains();
-    let ridges = ridges(&search, chord);
+    let halt = &mut Halt::new(search.judged, poll);
+    let (chains, points) = Joiner::new(&search, chord).chains(halt)?;
+    let ridges = ridges(&search, chord, halt)?;
     let mut made =
         Maker { a: a.surface(), b: b.surface(), search: &search, out: Intersection::default() };
     made.out.judged = search.judged;
     made.out.exhausted = search.open.iter().any(|pair| pair.why == Open::Budget);
     for &tip in &search.tips {
+        halt.ask()?;
         made.tip(tip, [a, b]);
     }
-    let groups = clusters(&search);
+    let groups = clusters(&search, halt)?;
     match &groups {
-        Some(groups) => made.classify(groups, &ridges),
+        Some(groups) => made.classify(groups, &ridges, halt)?,
         None => {
             made.out.undecided =
                 search.open.iter().map(|pair| region(pair.low, pair.high)).collect()
@@ -313,15 +316,17 @@ pub fn intersect(
         });
     }
     for chain in chains {
+        halt.ask()?;
         let bounds = (chain.chord / frames.scale, chain.bulge, chain.held);
         made.push(chain.places, chain.stops, Some(bounds));
     }
     for ridge in ridges {
+        halt.ask()?;
         made.push(ridge.places, ridge.stops, None);
     }
     made.join_at_tips();
     made.swallow();
-    for rim in rims(&search, chord) {
+    for rim in rims(&search, chord, halt)? {
         made.push(rim.places, [rim.stop; 2], None);
         if let Some(branch) = made.out.branches.last_mut() {
             branch.bounds_overlap = true;

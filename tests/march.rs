@@ -346,6 +346,33 @@ fn a_budget_that_ends_and_a_stop_are_honest() {
     }
 }
 
+#[test]
+fn a_stop_counts_after_the_search_too() {
+    let turned = moved(&sphere(1.0), &z_to_x([0.0; 3]));
+    let pairs = [
+        (torus(2.0, 0.5), level(0.1)),
+        (torus(2.0, 0.5), level(0.5)),
+        (cylinder(1.0, 2.0), cylinder(1.0, 1.0)),
+        (sphere(1.0), turned),
+    ];
+    for (a, b) in pairs {
+        let (a, b) = (IndexedSurface::new(a), IndexedSurface::new(b));
+        let stopped_at = |n: usize| {
+            let mut asked = 0;
+            let found = intersect(&a, &b, &MarchOptions::default(), &mut |_, waiting| {
+                asked += usize::from(waiting == 0);
+                waiting == 0 && asked == n
+            });
+            (found.err(), asked)
+        };
+        let (error, asked) = stopped_at(usize::MAX);
+        assert!(error.is_none() && asked > 0);
+        for n in (1..=asked).step_by(asked.div_ceil(8)).chain([asked]) {
+            assert_eq!(stopped_at(n), (Some(footpoint::error::Error::Cancelled), n));
+        }
+    }
+}
+
 /// Loops of the small-loop test: exactly `n`, proven, each around a bump of its own, as large as the gap says.
 fn check_loops(n: usize, gap: f64, lift: impl Fn(P) -> P + Copy) {
     let a = IndexedSurface::new(bumps(n, lift));

@@ -64,7 +64,9 @@ int main(int argc, char **argv) {
         double low = HUGE_VAL, high = -HUGE_VAL;
         for (int i = 0; i <= 40; i++)
             for (int j = 0; j <= 40; j++) {
-                const auto p = surface.evaluate(g.low(0) + (g.high(0) - g.low(0)) * i / 40, g.low(1) + (g.high(1) - g.low(1)) * j / 40);
+                // Rounding must not lead beyond the domain.
+                const auto at = [&](int k, int n) { return std::min(g.high(k), g.low(k) + (g.high(k) - g.low(k)) * n / 40); };
+                const auto p = surface.evaluate(at(0, i), at(1, j));
                 const double h = p[0] * normal[0] + p[1] * normal[1] + p[2] * normal[2];
                 low = std::min(low, h), high = std::max(high, h);
             }

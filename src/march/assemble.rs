@@ -2,11 +2,12 @@
 
 use super::cluster::{Cluster, see};
 use super::join::{Place, Stop, distance_to_chord};
-use super::search::{Open, Search};
+use super::search::{Halt, Open, Search};
 use super::tangent::{Ridge, is_near, unfollowed};
 use super::{Branch, Contact, ContactKind, End, Intersection, MarchPoint, Region};
 use crate::bounds::{norm, sub};
 use crate::closest::{QueryOptions, Workspace};
+use crate::error::Error;
 use crate::index::IndexedSurface;
 use crate::surface::Surface;
 
@@ -52,12 +53,21 @@ impl<'a, 'b> Maker<'a, 'b> {
     }
 
     /// What is in the groups of boxes that were not divided further.
-    pub fn classify(&mut self, groups: &[Cluster], ridges: &[Ridge]) {
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub fn classify(
+        &mut self,
+        groups: &[Cluster],
+        ridges: &[Ridge],
+        halt: &mut Halt,
+    ) -> Result<(), Error> {
         for pair in self.search.open.iter().filter(|pair| pair.why == Open::Area) {
             self.out.overlaps.push(region(pair.low, pair.high));
         }
         let beside = unfollowed(self.search, ridges);
         for group in groups {
+            halt.ask()?;
             let [area, curve, flat, budget] = group.has;
             let is_followed = !beside.iter().any(|&at| group.holds(at));
             if area || (curve && !flat && !budget && is_followed) {
@@ -97,6 +107,7 @@ impl<'a, 'b> Maker<'a, 'b> {
                 _ => self.out.undecided.push(region(group.low, group.high)),
             }
         }
+        Ok(())
     }
 
     /// What lengths of the caller were multiplied by.

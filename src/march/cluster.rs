@@ -2,11 +2,15 @@
 
 use super::contact::{foot, settle};
 use super::join::Place;
-use super::search::{Open, OpenPair, Search};
+use super::search::{Halt, Open, OpenPair, Search};
 use crate::bounds::{add, norm, scaled, sub};
+use crate::error::Error;
 
 /// Boxes beyond this are not gathered: they are all listed.
 const MOST_BOXES: usize = 6_000;
+
+/// Boxes between two looks at whether to stop.
+const GROUP: usize = 64;
 
 /// A group of boxes that touch.
 pub struct Cluster {
@@ -44,11 +48,14 @@ fn touch(a: &OpenPair, b: &OpenPair) -> bool {
     })
 }
 
-/// Groups of boxes that touch one another; `None` when there are too many.
-pub fn clusters(search: &Search) -> Option<Vec<Cluster>> {
+/// Groups of boxes that touch one another; `None` when there are too many. `halt` is asked now and then whether to stop.
+///
+/// # Errors
+/// [`Error::Cancelled`].
+pub fn clusters(search: &Search, halt: &mut Halt) -> Result<Option<Vec<Cluster>>, Error> {
     let open = &search.open;
     if open.len() > MOST_BOXES {
-        return None;
+        return Ok(None);
     }
     let mut group: Vec<usize> = (0..open.len()).collect();
     fn root(group: &mut [usize], mut k: usize) -> usize {
@@ -59,6 +66,9 @@ pub fn clusters(search: &Search) -> Option<Vec<Cluster>> {
         k
     }
     for i in 0..open.len() {
+        if i.is_multiple_of(GROUP) {
+            halt.ask()?;
+        }
         for j in 0..i {
             if touch(&open[i], &open[j]) {
                 let (a, b) = (root(&mut group, i), root(&mut group, j));
@@ -93,6 +103,7 @@ pub fn clusters(search: &Search) -> Option<Vec<Cluster>> {
         cluster.size = cluster.size.max(open[k].size);
     }
     for cluster in &mut found {
+        halt.ask()?;
         let (low, high) = (cluster.low, cluster.high);
         let extent = |k: usize| {
             let at = |q: usize, high_end: bool| if high_end { high[q] } else { low[q] };
@@ -105,7 +116,7 @@ pub fn clusters(search: &Search) -> Option<Vec<Cluster>> {
         };
         cluster.size = cluster.size.max(extent(0).min(extent(1)));
     }
-    Some(found)
+    Ok(Some(found))
 }
 
 /// The place of least gap in a small cluster, when the surfaces meet there but for rounding.

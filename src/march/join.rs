@@ -10,9 +10,10 @@
 
 use super::arc::Arc;
 use super::pieces::Pieces;
-use super::search::Search;
+use super::search::{Halt, Search};
 use super::system::meeting;
 use crate::bounds::{Vector, dot, norm, scaled, sub};
+use crate::error::Error;
 use std::collections::HashMap;
 
 /// Most chords between two ends of an arc.
@@ -100,13 +101,18 @@ impl<'a, 'b> Joiner<'a, 'b> {
     }
 
     /// All chains, and places where an arc has no length (a corner of a domain that just meets the other surface).
-    pub fn chains(mut self) -> (Vec<Chain>, Vec<Place>) {
+    /// `halt` is asked before each whether to stop.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub fn chains(mut self, halt: &mut Halt) -> Result<(Vec<Chain>, Vec<Place>), Error> {
         let (mut chains, mut points) = (Vec::new(), Vec::new());
         for k in 0..self.search.found.len() {
             let arc = &self.search.found[k].arc;
             if self.used[k] || arc.x[1] - arc.x[0] < 1e-9 {
                 continue;
             }
+            halt.ask()?;
             let middle = 0.5 * (arc.x[0] + arc.x[1]);
             if self.is_covered(k, middle) {
                 self.used[k] = true;
@@ -121,7 +127,7 @@ impl<'a, 'b> Joiner<'a, 'b> {
                 points.push(self.place(arc, arc.x[0]));
             }
         }
-        (chains, points)
+        Ok((chains, points))
     }
 
     fn place(&self, arc: &Arc, x: f64) -> Place {

@@ -9,8 +9,9 @@
 
 use super::contact::look;
 use super::join::{Place, Stop, distance_to_chord};
-use super::search::{Open, Search};
+use super::search::{Halt, Open, Search};
 use crate::bounds::{Vector, add, norm, scaled, sub};
+use crate::error::Error;
 
 /// Looks along a side within one box.
 const SAMPLES: usize = 16;
@@ -149,10 +150,13 @@ impl Side<'_, '_> {
     }
 }
 
-/// Curves around all areas in which the surfaces of a search coincide.
-pub fn rims(search: &Search, chord: f64) -> Vec<Rim> {
+/// Curves around all areas in which the surfaces of a search coincide. `halt` is asked now and then whether to stop.
+///
+/// # Errors
+/// [`Error::Cancelled`].
+pub fn rims(search: &Search, chord: f64, halt: &mut Halt) -> Result<Vec<Rim>, Error> {
     if !search.open.iter().any(|pair| pair.why == Open::Area) {
-        return Vec::new();
+        return Ok(Vec::new());
     }
     let mut lines: Vec<Vec<Place>> = Vec::new();
     for own in 0..2 {
@@ -160,6 +164,7 @@ pub fn rims(search: &Search, chord: f64) -> Vec<Rim> {
         let (domain, collapsed) = (surface.domain(), surface.collapsed_edges());
         let closed = [surface.is_closed_u(), surface.is_closed_v()];
         for side in (0..4).filter(|&side| !closed[side / 2] && !collapsed[side]) {
+            halt.ask()?;
             let one = Side { search, own, fixed: side / 2, value: domain[side] };
             let mut found = Vec::new();
             one.rims(chord, &mut found);
@@ -175,7 +180,7 @@ pub fn rims(search: &Search, chord: f64) -> Vec<Rim> {
             lines.extend(found);
         }
     }
-    joined(lines, search)
+    joined(lines, search, halt)
 }
 
 /// Whether both ends of a line are near another one.
@@ -184,11 +189,12 @@ fn meets(line: &[Place], other: &[Place], near: f64) -> bool {
     close(other[0].x) && close(other[other.len() - 1].x)
 }
 
-fn joined(mut lines: Vec<Vec<Place>>, search: &Search) -> Vec<Rim> {
+fn joined(mut lines: Vec<Vec<Place>>, search: &Search, halt: &mut Halt) -> Result<Vec<Rim>, Error> {
     // Ends were found by what is rounding: they are as far apart as that lets them be.
     let near = 1e-6 + 64.0 * search.floor;
     let mut rims = Vec::new();
     while let Some(mut line) = lines.pop() {
+        halt.ask()?;
         loop {
             let (first, end) = (line[0].x, line[line.len() - 1].x);
             if line.len() > 2 && norm(sub(first, end)) <= near {
@@ -214,5 +220,5 @@ fn joined(mut lines: Vec<Vec<Place>>, search: &Search) -> Vec<Rim> {
             }
         }
     }
-    rims
+    Ok(rims)
 }

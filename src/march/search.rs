@@ -67,6 +67,25 @@ pub struct Found {
     pub ends: [Option<usize>; 2],
 }
 
+/// Whether the caller wants to stop, asked by what follows the search: no pair waits there.
+pub struct Halt<'a> {
+    judged: u64,
+    poll: &'a mut dyn FnMut(u64, u64) -> bool,
+}
+
+impl<'a> Halt<'a> {
+    /// After a search that judged so many pairs.
+    pub fn new(judged: u64, poll: &'a mut dyn FnMut(u64, u64) -> bool) -> Self {
+        Self { judged, poll }
+    }
+
+    /// # Errors
+    /// [`Error::Cancelled`] when `poll(judged, 0)` said so.
+    pub fn ask(&mut self) -> Result<(), Error> {
+        if (self.poll)(self.judged, 0) { Err(Error::Cancelled) } else { Ok(()) }
+    }
+}
+
 /// The search and what it found.
 pub struct Search<'a> {
     /// The surfaces in the frame of the search.

@@ -6,8 +6,9 @@
 
 use super::contact::{Touch, into_domain, settle};
 use super::join::{Place, Stop, distance_to_chord};
-use super::search::{Open, Search};
+use super::search::{Halt, Open, Search};
 use crate::bounds::{Vector, add, dot, norm, scaled, sub};
+use crate::error::Error;
 
 /// Most steps along one curve.
 const MOST_STEPS: usize = 20_000;
@@ -160,11 +161,15 @@ pub fn unfollowed(search: &Search, ridges: &[Ridge]) -> Vec<[f64; 4]> {
     middles.filter(|&(_, x, size)| !is_followed(x, size)).map(|(at, ..)| at).collect()
 }
 
-/// All curves of touching, from the pairs in which it was seen.
-pub fn ridges(search: &Search, chord: f64) -> Vec<Ridge> {
+/// All curves of touching, from the pairs in which it was seen. `halt` is asked before each whether to stop.
+///
+/// # Errors
+/// [`Error::Cancelled`].
+pub fn ridges(search: &Search, chord: f64, halt: &mut Halt) -> Result<Vec<Ridge>, Error> {
     let tracer = Tracer { search, chord };
     let mut found: Vec<Ridge> = Vec::new();
     for pair in search.open.iter().filter(|pair| pair.why == Open::Curve) {
+        halt.ask()?;
         let middle = [0, 1, 2, 3].map(|k| 0.5 * (pair.low[k] + pair.high[k]));
         let Some(touch) = tracer.touch(middle, pair.size) else { continue };
         let x = tracer.place(&touch).x;
@@ -179,5 +184,5 @@ pub fn ridges(search: &Search, chord: f64) -> Vec<Ridge> {
         ridge.stops.contains(&Stop::Open) && ridge.places.iter().map(far).fold(0.0, f64::max) < CUSP
     };
     found.retain(|ridge| !is_short(ridge));
-    found
+    Ok(found)
 }
