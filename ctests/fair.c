@@ -173,6 +173,29 @@ static void curvatures_have_their_closed_forms(void) {
     fpt_inspect_set_free(set);
     fpt_curve_free(circle);
     fpt_surface_free(surface);
+    {
+        /* A fan with a bent foot: curvature grows without bound towards its tip. */
+        static const double u[] = {0, 0, 0, 1, 1, 1}, v[] = {0, 0, 1, 1};
+        static const double poles[] = {0, 0, 0, 1, 0, -1, 0, 0, 0, 1, 1, -1.3, 0, 0, 0, 0, 1, -1};
+        fpt_surface_data data;
+        fpt_surface *tip = NULL;
+        memset(&data, 0, sizeof data);
+        data.struct_size = sizeof data;
+        data.degree_u = 2, data.degree_v = 1, data.pole_count_u = 3, data.pole_count_v = 2;
+        data.knots_u = u, data.knots_v = v, data.poles = poles;
+        CHECK_OK(fpt_surface_new(&data, &tip));
+        CHECK_OK(fpt_inspect_surface_range_places(tip, FPT_QUANTITY_SHARPEST, NULL, &range, &set));
+        CHECK((range.flags & FPT_RANGE_GREATEST_UNBOUNDED) != 0 && (range.flags & FPT_RANGE_LEAST_UNBOUNDED) == 0);
+        CHECK(range.proven == 0 && range.excluded > 0 && range.excluded < 0.01);
+        CHECK_OK(fpt_inspect_set_count(set, &count));
+        CHECK(count == 1);
+        CHECK_OK(fpt_inspect_set_get(set, 0, &place));
+        CHECK(place.kind == FPT_PLACE_UNBOUNDED && place.value[1] == 0 && place.v[0] == 0 && place.v[1] < 0.01);
+        fpt_inspect_set_free(set);
+        CHECK_ERROR(fpt_inspect_surface_range_places(tip, 4, NULL, &range, NULL), FPT_NULL_ARGUMENT, "places");
+        CHECK_ERROR(fpt_inspect_surface_range_places(tip, 4, NULL, NULL, &set), FPT_NULL_ARGUMENT, "out");
+        fpt_surface_free(tip);
+    }
 }
 
 static void shapes_are_apart_and_meet_as_they_were_made(void) {

@@ -610,6 +610,9 @@ void fairing_and_inspection_are_those_of_the_c_api() {
     const fpt_inspect_range range = footpoint::curvature_range(quarter);
     CHECK(range.proven == 1 && range.least[0] <= 0.5 && range.greatest[1] >= 0.5);
     CHECK(footpoint::curvatures(quarter, {0.3, 0.5})[0].is_singular == 0 && footpoint::umbilics(quarter).empty());
+    const surface tip(2, 1, {0, 0, 0, 1, 1, 1}, {0, 0, 1, 1}, {0, 0, 0, 1, 0, -1, 0, 0, 0, 1, 1, -1.3, 0, 0, 0, 0, 1, -1});
+    const footpoint::range_with_places sharp = footpoint::curvature_range_places(tip);
+    CHECK((sharp.range.flags & FPT_RANGE_GREATEST_UNBOUNDED) != 0 && sharp.places.at(0).kind == FPT_PLACE_UNBOUNDED);
     const footpoint::hausdorff_distance apart = footpoint::hausdorff(quarter, quarter);
     CHECK(apart.forward.lower == 0 && apart.backward.proven == 1);
     CHECK(footpoint::border(quarter, 2, quarter, 2).gap.upper < 1e-4);

@@ -882,7 +882,51 @@ typedef enum fpt_inspect_kind {
      * A large such box: a line or an area of umbilics, or the budget ran out.
      */
     FPT_PLACE_UMBILIC_AREA = 7,
+    /**
+     * A box that a range excludes and in which the quantity has no bound, proven: a tip, a cusp.
+     */
+    FPT_PLACE_UNBOUNDED = 8,
+    /**
+     * A box that a range excludes and of which nothing is proven.
+     */
+    FPT_PLACE_EXCLUDED = 9,
 } fpt_inspect_kind;
+
+/**
+ * Which extremes of a range are looked for, for fpt_inspect_options.side.
+ */
+typedef enum fpt_inspect_side {
+    /**
+     * The least value and the greatest.
+     */
+    FPT_SIDE_BOTH = 0,
+    /**
+     * The least one.
+     */
+    FPT_SIDE_LEAST = 1,
+    /**
+     * The greatest one: of FPT_QUANTITY_SHARPEST that is the least radius, in half the time or less.
+     */
+    FPT_SIDE_GREATEST = 2,
+} fpt_inspect_side;
+
+/**
+ * What is proven of a range that excludes a part of the domain: bits of fpt_inspect_range.flags.
+ */
+typedef enum fpt_inspect_range_flag {
+    /**
+     * In an excluded box the quantity falls below every number.
+     */
+    FPT_RANGE_LEAST_UNBOUNDED = 1,
+    /**
+     * In an excluded box the quantity exceeds every number: of FPT_QUANTITY_SHARPEST, the least radius is 0.
+     */
+    FPT_RANGE_GREATEST_UNBOUNDED = 2,
+    /**
+     * Outside of the excluded boxes both gaps are the allowed ones.
+     */
+    FPT_RANGE_REST_PROVEN = 4,
+} fpt_inspect_range_flag;
 
 /**
  * A parameter direction of a surface.
@@ -2870,8 +2914,8 @@ typedef struct fpt_inspect_range {
      */
     double at_greatest[2];
     /**
-     * Share of the domain of which nothing is proven: beside tips and cusps, where curvatures are not bounded. The bounds hold for
-     * the rest.
+     * Share of the domain that is left out: beside tips and cusps, where curvatures are not bounded. The bounds hold for the rest;
+     * flags tells what is proven of the part that is left out, fpt_inspect_surface_range_places where it is.
      */
     double excluded;
     /**
@@ -2888,9 +2932,9 @@ typedef struct fpt_inspect_range {
      */
     uint32_t proven;
     /**
-     * 0.
+     * Bits of fpt_inspect_range_flag: what is proven of tips and cusps, and of the rest.
      */
-    uint32_t reserved;
+    uint32_t flags;
 } fpt_inspect_range;
 
 /**
@@ -2975,7 +3019,7 @@ typedef struct fpt_inspect_place {
     double v[2];
     /**
      * Monotone pieces: curvature at both ends. Inflections: the parameter, 0. Umbilics: difference of the principal curvatures at
-     * the best place found, 0.
+     * the best place found, 0. FPT_PLACE_UNBOUNDED: the place u,v in the box near which every bound is passed.
      */
     double value[2];
     /**
@@ -7335,6 +7379,24 @@ fpt_status fpt_inspect_surface_range(const struct fpt_surface *surface,
                                      uint32_t quantity,
                                      const struct fpt_inspect_options *options,
                                      struct fpt_inspect_range *out);
+
+/**
+ * As fpt_inspect_surface_range, and the boxes of the domain that the range excludes, when there are any: beside tips and cusps.
+ * Of those of kind FPT_PLACE_UNBOUNDED it is proven that the quantity has no bound there; of those of kind FPT_PLACE_EXCLUDED
+ * nothing is.
+ *
+ * @param quantity  a value of fpt_inspect_quantity
+ * @param options   domain, relative, budget; NULL: the defaults
+ * @param places    the boxes; release the set with fpt_inspect_set_free
+ * @return as fpt_inspect_surface_range
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_inspect_surface_range_places(const struct fpt_surface *surface,
+                                            uint32_t quantity,
+                                            const struct fpt_inspect_options *options,
+                                            struct fpt_inspect_range *out,
+                                            struct fpt_inspect_set **places);
 
 /**
  * The teeth of a curvature comb.

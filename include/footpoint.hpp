@@ -2390,6 +2390,19 @@ struct picture_options : fpt_inspect_picture_options {
     }
 };
 
+namespace detail {
+/** The places of a set, which is released. */
+inline std::vector<fpt_inspect_place> places(fpt_inspect_set *set) {
+    struct deleter {
+        void operator()(fpt_inspect_set *handle) const noexcept { fpt_inspect_set_free(handle); }
+    };
+    const std::unique_ptr<fpt_inspect_set, deleter> owner(set);
+    std::vector<fpt_inspect_place> out(value(fpt_inspect_set_count, static_cast<const fpt_inspect_set *>(set)));
+    for (std::size_t i = 0; i < out.size(); i++) check(fpt_inspect_set_get(set, i, &out[i]));
+    return out;
+}
+} // namespace detail
+
 /** As fpt_inspect_curve_range. */
 inline fpt_inspect_range curvature_range(const curve &shape, const fpt_inspect_options &options = inspect_options()) {
     fpt_inspect_range out{};
@@ -2401,6 +2414,21 @@ inline fpt_inspect_range curvature_range(const surface &shape, fpt_inspect_quant
                                          const fpt_inspect_options &options = inspect_options()) {
     fpt_inspect_range out{};
     check(fpt_inspect_surface_range(shape.get(), static_cast<std::uint32_t>(quantity), &options, &out));
+    return out;
+}
+/** A range with the boxes that it excludes: kinds FPT_PLACE_UNBOUNDED and FPT_PLACE_EXCLUDED. */
+struct range_with_places {
+    fpt_inspect_range range{};
+    std::vector<fpt_inspect_place> places;
+};
+
+/** As fpt_inspect_surface_range_places. */
+inline range_with_places curvature_range_places(const surface &shape, fpt_inspect_quantity quantity = FPT_QUANTITY_SHARPEST,
+                                                const fpt_inspect_options &options = inspect_options()) {
+    range_with_places out;
+    fpt_inspect_set *set = nullptr;
+    check(fpt_inspect_surface_range_places(shape.get(), static_cast<std::uint32_t>(quantity), &options, &out.range, &set));
+    out.places = detail::places(set);
     return out;
 }
 /** As fpt_inspect_comb. */
@@ -2416,19 +2444,6 @@ inline std::vector<fpt_inspect_curvature> curvatures(const surface &shape, span<
     check(fpt_inspect_curvatures(shape.get(), parameters.data(), out.size(), out.data()));
     return out;
 }
-
-namespace detail {
-/** The places of a set, which is released. */
-inline std::vector<fpt_inspect_place> places(fpt_inspect_set *set) {
-    struct deleter {
-        void operator()(fpt_inspect_set *handle) const noexcept { fpt_inspect_set_free(handle); }
-    };
-    const std::unique_ptr<fpt_inspect_set, deleter> owner(set);
-    std::vector<fpt_inspect_place> out(value(fpt_inspect_set_count, static_cast<const fpt_inspect_set *>(set)));
-    for (std::size_t i = 0; i < out.size(); i++) check(fpt_inspect_set_get(set, i, &out[i]));
-    return out;
-}
-} // namespace detail
 
 /** As fpt_inspect_monotone_pieces. */
 inline std::vector<fpt_inspect_place> monotone_pieces(const curve &shape) {

@@ -12,15 +12,23 @@ mod slope;
 
 mod polynomial;
 
+mod doubled;
+
+mod model;
+
+mod net;
+
 mod cell;
 
 mod request;
 
+mod local;
+
+mod growth;
+
 mod search;
 
 mod glance;
-
-mod level;
 
 mod climb;
 
@@ -46,5 +54,5 @@ pub use continuity::{Continuity, Measured, continuity};
 pub use hausdorff::{Directed, Hausdorff, HausdorffOptions, Shape, hausdorff};
 pub use picture::{Pattern, Picture, PictureOptions, picture};
 pub use ranges::{curve_range, surface_range};
-pub use request::{Quantity, Range, RangeOptions, Side};
+pub use request::{Quantity, Range, RangeOptions, Side, Unbounded};
 pub use umbilic::{Curvatures, Umbilic, curvatures, umbilics};

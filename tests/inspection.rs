@@ -251,3 +251,127 @@ fn pictures_show_the_surface_and_refuse_nonsense() {
     assert!(refused(&|o| o.bands = 0).starts_with("bands:"));
     assert!(refused(&|o| o.range = [1.0, f64::INFINITY]).starts_with("range:"));
 }
+
+/// Brightness of a picture's pixel, 0 to 1.
+fn brightness(pixels: &[u8], width: usize, x: usize, y: usize) -> f64 {
+    pixels[3 * (y * width + x)..][..3].iter().map(|c| f64::from(*c)).sum::<f64>() / 765.0
+}
+
+/// How often a row of brightness goes from light to dark: dark stripes that begin.
+fn stripes(row: &[f64]) -> usize {
+    let (mut count, mut is_dark) = (0, false);
+    for &x in row {
+        let now = if is_dark { x < 0.55 } else { x < 0.3 };
+        count += usize::from(now && !is_dark);
+        is_dark = now;
+    }
+    count
+}
+
+/// A picture seen and lit along z, with y up.
+fn from_above(surface: &Surface, pattern: Pattern, bands: usize, range: [f64; 2]) -> Vec<u8> {
+    let options = PictureOptions {
+        pattern,
+        size: [400, 400],
+        eye: [0.0, 0.0, 1.0],
+        up: [0.0, 1.0, 0.0],
+        light: [0.0, 0.0, 1.0],
+        bands,
+        range,
+    };
+    picture(surface, &options).unwrap().pixels
+}
+
+#[test]
+fn isophotes_of_a_sphere_are_circles_one_for_each_band() {
+    let pixels = from_above(&ellipsoid([1.0; 3]), Pattern::Isophotes, 8, [0.0; 2]);
+    // From the middle outward the angle between normal and light goes from 0 to a right angle; the last band is a pixel wide.
+    for (dx, dy) in [(1i64, 0i64), (-1, 0), (0, 1), (0, -1)] {
+        let at =
+            |k: i64| brightness(&pixels, 400, (200 + dx * k) as usize, (200 + dy * k) as usize);
+        let row: Vec<f64> = (0..187).map(at).collect();
+        let count = stripes(&row);
+        assert!((7..=8).contains(&count), "{dx} {dy} {count}");
+        // The middle is the begin of the first band, which is dark; it ends at half of an eighth of a right angle.
+        let radius = 188.0 * (0.5 * std::f64::consts::FRAC_PI_2 / 8.0).sin();
+        let edge = row.iter().position(|x| *x > 0.5).unwrap() as f64;
+        assert!((edge - radius).abs() <= 2.5, "{edge} {radius}");
+    }
+}
+
+#[test]
+fn zebra_stripes_of_a_ball_cross_its_middle_twice_and_a_plane_has_none() {
+    let pixels = from_above(&ellipsoid([1.0; 3]), Pattern::Zebra, 10, [0.0; 2]);
+    // Up the middle line the reflection goes down to the floor, up to the ceiling and back: twice ten bands.
+    let column: Vec<f64> = (13..387).map(|y| brightness(&pixels, 400, 200, y)).collect();
+    let count = stripes(&column);
+    assert!((16..=21).contains(&count), "{count}");
+    let flat = plane([[0., 0., 0.], [0., 1., 0.], [1., 0., 0.], [1., 1., 0.]]);
+    let pixels = from_above(flat.surface(), Pattern::Zebra, 10, [0.0; 2]);
+    let row: Vec<f64> = (20..380).map(|x| brightness(&pixels, 400, x, 200)).collect();
+    assert!(row.iter().all(|x| (x - row[0]).abs() < 0.01), "{row:?}");
+}
+
+#[test]
+fn lamps_over_a_plane_are_straight_lines_at_equal_distances() {
+    let flat = plane([[0., 0., 0.], [0., 1., 0.], [1., 0., 0.], [1., 1., 0.]]);
+    for pattern in [Pattern::ReflectionLines, Pattern::HighlightLines] {
+        let pixels = from_above(flat.surface(), pattern, 12, [0.0; 2]);
+        let line =
+            |y: usize| (14..386).map(|x| brightness(&pixels, 400, x, y)).collect::<Vec<f64>>();
+        let row = line(200);
+        let count = stripes(&row);
+        // The plane is 0.94 of the picture wide: 11.3 lamps.
+        assert!((11..=12).contains(&count), "{pattern:?} {count}");
+        for y in [30, 120, 350] {
+            let off = line(y).iter().zip(&row).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(off < 0.01, "{pattern:?} {y} {off}");
+        }
+    }
+    // Seen in a tube along y:
+    let (knots, poles) = circle([0.0; 3], 1.0);
+    let poles: Vec<(Vector, f64)> = poles.into_iter().collect();
+    let tube: Vec<Vector> =
+        poles.iter().flat_map(|(p, _)| [[p[0], 0.0, p[2]], [p[0], 2.0, p[2]]]).collect();
+    let weights: Vec<f64> = poles.iter().flat_map(|(_, w)| [*w, *w]).collect();
+    let count = poles.len();
+    let tube = Surface::new(&knots, &LINE, 2, 1, &tube, count, 2, Some(&weights)).unwrap();
+    let pixels = from_above(&tube, Pattern::ReflectionLines, 12, [0.0; 2]);
+    let row: Vec<f64> = (14..386).map(|x| brightness(&pixels, 400, x, 200)).collect();
+    // The middle is at 186, the radius 188: beyond half a right angle the reflection goes down, where no lamps are.
+    let (left, middle, right) =
+        (stripes(&row[4..48]), stripes(&row[60..312]), stripes(&row[324..368]));
+    assert!(left == 0 && middle >= 6 && right == 0, "{left} {middle} {right}");
+}
+
+#[test]
+fn colours_tell_the_sign_of_the_curvature_of_a_torus_and_its_value_on_a_sphere() {
+    let (knots, profile) = circle([3.0, 0.0, 0.0], 1.0);
+    let torus = revolved(&knots, 2, &profile);
+    let pixels = from_above(&torus, Pattern::Gaussian, 16, [-0.5, 0.5]);
+    let colour = |pixels: &[u8], x: usize, y: usize| {
+        let at = 3 * (y * 400 + x);
+        [0, 1, 2].map(|c| i32::from(pixels[at + c]))
+    };
+    // 0.94 of 400 pixels are 8 lengths: 47 pixels a length.
+    for (dx, dy) in [(1i32, 0i32), (-1, 0), (0, 1), (0, -1)] {
+        let at = |length: f64| {
+            let go = |d: i32| (200.0 + f64::from(d) * 47.0 * length) as usize;
+            colour(&pixels, go(dx), go(dy))
+        };
+        let [red, _, blue] = at(3.8);
+        assert!(red > blue + 40, "outside {red} {blue}");
+        let [red, _, blue] = at(2.2);
+        assert!(blue > red + 40, "inside {red} {blue}");
+        let [red, green, blue] = at(3.0);
+        assert!((red - green).abs() < 25 && (red - blue).abs() < 25, "top {red} {green} {blue}");
+        assert_eq!(at(0.0), [255; 3]);
+    }
+    // Half of the range is white, its ends are red and blue.
+    let ball = ellipsoid([2.0; 3]);
+    let size = |range| colour(&from_above(&ball, Pattern::Gaussian, 16, range), 200, 200);
+    let [red, _, blue] = size([0.0, 0.5]);
+    assert!((red - blue).abs() < 12, "{red} {blue}");
+    let ([red, _, blue], [cold, _, warm]) = (size([0.0, 0.25]), size([0.25, 0.5]));
+    assert!(red > blue + 100 && warm > cold + 100, "{red} {blue} {cold} {warm}");
+}

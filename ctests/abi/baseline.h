@@ -231,7 +231,19 @@ typedef enum fpt_inspect_kind {
     FPT_PLACE_STRAIGHT = 5,
     FPT_PLACE_UMBILIC = 6,
     FPT_PLACE_UMBILIC_AREA = 7,
+    FPT_PLACE_UNBOUNDED = 8,
+    FPT_PLACE_EXCLUDED = 9,
 } fpt_inspect_kind;
+typedef enum fpt_inspect_side {
+    FPT_SIDE_BOTH = 0,
+    FPT_SIDE_LEAST = 1,
+    FPT_SIDE_GREATEST = 2,
+} fpt_inspect_side;
+typedef enum fpt_inspect_range_flag {
+    FPT_RANGE_LEAST_UNBOUNDED = 1,
+    FPT_RANGE_GREATEST_UNBOUNDED = 2,
+    FPT_RANGE_REST_PROVEN = 4,
+} fpt_inspect_range_flag;
 typedef enum fpt_direction {
     FPT_DIRECTION_U = 0,
     FPT_DIRECTION_V = 1,
@@ -729,7 +741,7 @@ typedef struct fpt_inspect_range {
     double moved;
     uint64_t boxes;
     uint32_t proven;
-    uint32_t reserved;
+    uint32_t flags;
 } fpt_inspect_range;
 typedef struct fpt_inspect_tooth {
     double u;
@@ -2118,6 +2130,12 @@ fpt_status fpt_inspect_surface_range(const struct fpt_surface *surface,
                                      uint32_t quantity,
                                      const struct fpt_inspect_options *options,
                                      struct fpt_inspect_range *out);
+FPT_MUST_USE
+fpt_status fpt_inspect_surface_range_places(const struct fpt_surface *surface,
+                                            uint32_t quantity,
+                                            const struct fpt_inspect_options *options,
+                                            struct fpt_inspect_range *out,
+                                            struct fpt_inspect_set **places);
 FPT_MUST_USE
 fpt_status fpt_inspect_comb(const struct fpt_curve *curve,
                             const double *parameters,

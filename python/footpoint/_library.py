@@ -259,7 +259,7 @@ class InspectPictureOptions(ctypes.Structure):
 
 class InspectRange(ctypes.Structure):
     _fields_ = [("least", c_double * 2), ("greatest", c_double * 2), ("at_least", c_double * 2), ("at_greatest", c_double * 2),
-                ("excluded", c_double), ("moved", c_double), ("boxes", c_uint64), ("proven", c_uint32), ("reserved", c_uint32)]
+                ("excluded", c_double), ("moved", c_double), ("boxes", c_uint64), ("proven", c_uint32), ("flags", c_uint32)]
 
 
 class InspectTooth(ctypes.Structure):
@@ -417,7 +417,7 @@ _STATUS = {
     "surface_intersection_undecided": "pzp", "surface_intersection_curves": "pppzdzpppp", "intersect_trims": "pppp",
     "surface_intersection_split": "ppIdpzpp",
     "fair_curve": "ppp", "fair_surface": "ppp", "fair_report_summary": "pp", "fair_report_energies": "pzp", "fair_report_curve": "pp",
-    "fair_report_surface": "pp", "inspect_curve_range": "ppp", "inspect_surface_range": "pIpp", "inspect_comb": "ppzp",
+    "fair_report_surface": "pp", "inspect_curve_range": "ppp", "inspect_surface_range": "pIpp", "inspect_surface_range_places": "pIppp", "inspect_comb": "ppzp",
     "inspect_curvatures": "ppzp", "inspect_monotone_pieces": "pp", "inspect_inflections": "ppp", "inspect_umbilics": "ppp",
     "inspect_set_count": "pp", "inspect_set_get": "pzp", "inspect_hausdorff": "ppppppp", "inspect_border": "pIpIpp",
     "inspect_picture": "ppzpp",

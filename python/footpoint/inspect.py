@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from ._query import InspectOptions
 
 __all__ = ["Continuity", "Distance", "Kind", "Measured", "Pattern", "Picture", "Quantity", "Range", "Side", "border", "comb", "comb_svg", "curvature_range",
-           "curvatures", "hausdorff", "inflections", "monotone_pieces", "picture", "umbilics"]
+           "curvature_range_places", "curvatures", "hausdorff", "inflections", "monotone_pieces", "picture", "umbilics"]
 
 
 class Quantity(IntEnum):
@@ -67,7 +67,8 @@ class Pattern(IntEnum):
 
 
 class Kind(IntEnum):
-    """What a place is: a monotone piece (first four), an inflection, straight, a small or a large box of umbilics."""
+    """What a place is: a monotone piece (first four), an inflection, straight, a small or a large box of umbilics, a box that a range
+    excludes (curvature has no bound there, proven; or nothing is proven)."""
 
     RISING = 0
     FALLING = 1
@@ -77,6 +78,8 @@ class Kind(IntEnum):
     STRAIGHT = 5
     UMBILIC = 6
     UMBILIC_AREA = 7
+    UNBOUNDED = 8
+    EXCLUDED = 9
 
 
 TOOTH = np.dtype([("u", "f8"), ("point", "f8", 3), ("tangent", "f8", 3), ("bend", "f8", 3), ("curvature", "f8"), ("torsion", "f8")])
@@ -93,11 +96,14 @@ class Range:
     greatest     something is not less than greatest[0]; nothing is greater than greatest[1]
     at_least, at_greatest
                  parameters where the inner bounds are attained
-    excluded     share of the domain of which nothing is proven (beside tips and cusps); the bounds hold for the rest
+    excluded     share of the domain that is left out (beside tips and cusps); the bounds hold for the rest
     moved        0: the bounds are those of the shape; otherwise those of a shape from which no point of this one is farther than this
                  length, which is rounding (beside a pole the rounding of coordinates alone makes curvatures infinite)
     boxes        boxes looked at
     proven       whether both gaps are the allowed ones and nothing is excluded
+    unbounded    whether the least value falls below every number, and whether the greatest exceeds every number, in what is excluded:
+                 proven where true; of SHARPEST the second one means that the least radius is 0
+    rest_proven  whether both gaps are the allowed ones outside of what is excluded
     """
 
     least: tuple[float, float]
@@ -108,10 +114,13 @@ class Range:
     moved: float
     boxes: int
     proven: bool
+    unbounded: tuple[bool, bool] = (False, False)
+    rest_proven: bool = False
 
     @property
     def radius(self) -> tuple[float, float]:
-        """Of SHARPEST, and of curves: no radius of curvature is less than the first; one is not greater than the second."""
+        """Of SHARPEST, and of curves: no radius of curvature outside of what is excluded is less than the first; one is not greater
+        than the second."""
         return tuple(1 / value if value > 0 else float("inf") for value in reversed(self.greatest))
 
 
@@ -183,7 +192,24 @@ def curvature_range(shape: Curve | Surface, quantity: int = Quantity.SHARPEST, *
         kind = integer("quantity", quantity)
         status = lib.call("inspect_surface_range", _is(Surface, shape)._handle, kind, call.pointer, ctypes.addressof(out))
     call.finish(status)
-    return Range(tuple(out.least), tuple(out.greatest), tuple(out.at_least), tuple(out.at_greatest), out.excluded, out.moved, out.boxes, bool(out.proven))
+    return _range(out)
+
+
+def _range(out: lib.InspectRange) -> Range:
+    return Range(tuple(out.least), tuple(out.greatest), tuple(out.at_least), tuple(out.at_greatest), out.excluded, out.moved, out.boxes, bool(out.proven),
+                 (bool(out.flags & 1), bool(out.flags & 2)), bool(out.flags & 4))
+
+
+def curvature_range_places(surface: Surface, quantity: int = Quantity.SHARPEST, **options: Unpack[InspectOptions]) -> tuple[Range, np.ndarray]:
+    """As `curvature_range`, and the boxes that the range excludes: records u, v (the box), value, kind. UNBOUNDED: near the parameters
+    `value` the quantity passes every bound, proven; EXCLUDED: nothing is proven there.
+
+    options  see `InspectOptions`; domain, relative, budget, side, should_stop count
+    """
+    call, out = _call(_is(Surface, surface), options), lib.InspectRange()
+    kind = integer("quantity", quantity)
+    places = _set("inspect_surface_range_places", surface._handle, kind, call.pointer, ctypes.addressof(out), call=call)
+    return _range(out), places
 
 
 def comb(curve: Curve, parameters: ArrayLike | None = None) -> np.ndarray:

@@ -68,6 +68,21 @@ def test_curvatures_have_their_closed_forms():
     assert not len(inspect.umbilics(cylinder()))
 
 
+def test_a_tip_has_no_bound_and_the_rest_has():
+    # The graph of a cone over three lines of a bent fan: a quarter of a tent with a bent foot.
+    foot = [[1, 0, -1], [1, 1, -1.3], [0, 1, -1]]
+    tent = footpoint.Surface((2, 1), ([0, 0, 0, 1, 1, 1], [0, 0, 1, 1]), [[[0, 0, 0], pole] for pole in foot])
+    found, places = inspect.curvature_range_places(tent, side=inspect.Side.GREATEST)
+    assert found.unbounded == (False, True) and found.rest_proven and not found.proven and 0 < found.excluded < 0.01
+    assert inspect.curvature_range(tent, side=inspect.Side.GREATEST) == found
+    assert places["kind"].tolist() == [inspect.Kind.UNBOUNDED] and places["value"][0][1] == 0 and places["v"][0][0] == 0
+    v = places["v"][0][1]
+    rim = max(np.abs(inspect.curvatures(tent, [[u, v]])[0]["principal"]).max() for u in np.linspace(0, 1, 101))
+    assert found.greatest[0] * (1 - 1e-3) <= rim <= found.greatest[1] * (1 + 1e-9) and found.greatest[1] < 1.01 * rim
+    flat, places = inspect.curvature_range_places(cylinder())
+    assert flat.proven and flat.unbounded == (False, False) and flat.rest_proven and not len(places)
+
+
 def test_borders_and_distances():
     low = hill()
     gap = inspect.border(low, 0, low, 0)

@@ -4,7 +4,8 @@ use super::curve::{self, fpt_curve};
 use super::inspect_records::{
     choice, fpt_inspect_continuity, fpt_inspect_curvature, fpt_inspect_distance, fpt_inspect_kind,
     fpt_inspect_options, fpt_inspect_pattern, fpt_inspect_picture_options, fpt_inspect_place,
-    fpt_inspect_quantity, fpt_inspect_range, fpt_inspect_side, fpt_inspect_tooth, sized_or_default,
+    fpt_inspect_quantity, fpt_inspect_range, fpt_inspect_range_flag, fpt_inspect_side,
+    fpt_inspect_tooth, sized_or_default,
 };
 use super::limits::check_inside_at;
 use super::memory::{array, output, place, product, shared, write};
@@ -96,8 +97,31 @@ fn record(range: &Range, domain: [f64; 4]) -> fpt_inspect_range {
         moved: range.moved,
         boxes: range.boxes,
         proven: range.proven.into(),
-        reserved: 0,
+        flags: flags(range),
     }
+}
+
+fn flags(range: &Range) -> u32 {
+    use fpt_inspect_range_flag::*;
+    let falls = range.unbounded.iter().any(|place| place.falls);
+    let grows = range.unbounded.iter().any(|place| place.grows);
+    let bit = |is_set: bool, flag: u32| if is_set { flag } else { 0 };
+    bit(falls, FPT_RANGE_LEAST_UNBOUNDED as u32)
+        | bit(grows, FPT_RANGE_GREATEST_UNBOUNDED as u32)
+        | bit(range.rest_proven, FPT_RANGE_REST_PROVEN as u32)
+}
+
+/// The excluded boxes: first those in which a place without bound is proven.
+fn excluded(range: &Range) -> Vec<fpt_inspect_place> {
+    let box_of = |[u0, u1, v0, v1]: [f64; 4], value: [f64; 2], kind: fpt_inspect_kind| {
+        fpt_inspect_place { u: [u0, u1], v: [v0, v1], value, kind: kind as u32, reserved: 0 }
+    };
+    let kind = fpt_inspect_kind::FPT_PLACE_UNBOUNDED;
+    let unbounded = range.unbounded.iter().map(|place| box_of(place.domain, place.at, kind));
+    let is_told = |area: &&[f64; 4]| range.unbounded.iter().any(|place| place.domain == **area);
+    let kind = fpt_inspect_kind::FPT_PLACE_EXCLUDED;
+    let others = range.excluded.iter().filter(|area| !is_told(area));
+    unbounded.chain(others.map(|area| box_of(*area, [0.0; 2], kind))).collect()
 }
 
 /// The range of the curvature of a curve or a part of it, proven: no sampling.
@@ -146,6 +170,38 @@ pub unsafe extern "C" fn fpt_inspect_surface_range(
         let (_, options, callbacks) = read(options, 4)?;
         let range = surface_range(surface, quantity, &options, &mut || callbacks.poll(0, 0))?;
         write("out", record(&range, surface.surface().domain()), out)
+    })
+}
+
+/// As fpt_inspect_surface_range, and the boxes of the domain that the range excludes, when there are any: beside tips and cusps.
+/// Of those of kind FPT_PLACE_UNBOUNDED it is proven that the quantity has no bound there; of those of kind FPT_PLACE_EXCLUDED
+/// nothing is.
+///
+/// @param quantity  a value of fpt_inspect_quantity
+/// @param options   domain, relative, budget; NULL: the defaults
+/// @param places    the boxes; release the set with fpt_inspect_set_free
+/// @return as fpt_inspect_surface_range
+/// @since 0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fpt_inspect_surface_range_places(
+    surface: *const fpt_surface,
+    quantity: u32,
+    options: *const fpt_inspect_options,
+    out: *mut fpt_inspect_range,
+    places: *mut *mut fpt_inspect_set,
+) -> fpt_status {
+    // SAFETY: the header asks for a live handle, options, room for a record and for a handle.
+    guard(|| unsafe {
+        let surface = surface::indexed(surface)?;
+        let quantity = self::quantity(quantity)?;
+        let (_, options, callbacks) = read(options, 4)?;
+        let places = place("places", places)?;
+        let out = place("out", out)?;
+        let range = surface_range(surface, quantity, &options, &mut || callbacks.poll(0, 0))?;
+        *out = record(&range, surface.surface().domain());
+        hand_over(excluded(&range), places);
+        Ok(())
     })
 }
 

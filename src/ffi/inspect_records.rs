@@ -78,6 +78,22 @@ pub enum fpt_inspect_kind {
     FPT_PLACE_UMBILIC = 6,
     /// A large such box: a line or an area of umbilics, or the budget ran out.
     FPT_PLACE_UMBILIC_AREA = 7,
+    /// A box that a range excludes and in which the quantity has no bound, proven: a tip, a cusp.
+    FPT_PLACE_UNBOUNDED = 8,
+    /// A box that a range excludes and of which nothing is proven.
+    FPT_PLACE_EXCLUDED = 9,
+}
+
+/// What is proven of a range that excludes a part of the domain: bits of fpt_inspect_range.flags.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub enum fpt_inspect_range_flag {
+    /// In an excluded box the quantity falls below every number.
+    FPT_RANGE_LEAST_UNBOUNDED = 1,
+    /// In an excluded box the quantity exceeds every number: of FPT_QUANTITY_SHARPEST, the least radius is 0.
+    FPT_RANGE_GREATEST_UNBOUNDED = 2,
+    /// Outside of the excluded boxes both gaps are the allowed ones.
+    FPT_RANGE_REST_PROVEN = 4,
 }
 
 /// How far an inspection goes. Fill it with fpt_inspect_options_init. Grows at the end only.
@@ -180,8 +196,8 @@ pub struct fpt_inspect_range {
     pub at_least: [f64; 2],
     /// Parameters where the inner bound of the greatest is attained; curves: u, 0.
     pub at_greatest: [f64; 2],
-    /// Share of the domain of which nothing is proven: beside tips and cusps, where curvatures are not bounded. The bounds hold for
-    /// the rest.
+    /// Share of the domain that is left out: beside tips and cusps, where curvatures are not bounded. The bounds hold for the rest;
+    /// flags tells what is proven of the part that is left out, fpt_inspect_surface_range_places where it is.
     pub excluded: f64,
     /// Length. 0: the bounds are those of the shape. Otherwise those of a shape from which no point of this one is farther, which is
     /// rounding: beside a pole the rounding of its coordinates alone makes curvatures infinite.
@@ -190,8 +206,8 @@ pub struct fpt_inspect_range {
     pub boxes: u64,
     /// 1: both gaps are the allowed ones and nothing is excluded.
     pub proven: u32,
-    /// 0.
-    pub reserved: u32,
+    /// Bits of fpt_inspect_range_flag: what is proven of tips and cusps, and of the rest.
+    pub flags: u32,
 }
 
 /// A tooth of a curvature comb: 96 bytes, frozen.
@@ -243,7 +259,7 @@ pub struct fpt_inspect_place {
     /// First and last v; curves: 0.
     pub v: [f64; 2],
     /// Monotone pieces: curvature at both ends. Inflections: the parameter, 0. Umbilics: difference of the principal curvatures at
-    /// the best place found, 0.
+    /// the best place found, 0. FPT_PLACE_UNBOUNDED: the place u,v in the box near which every bound is passed.
     pub value: [f64; 2],
     /// A value of fpt_inspect_kind.
     pub kind: u32,

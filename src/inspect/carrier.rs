@@ -50,12 +50,14 @@ pub(super) struct Elementary<'a> {
 }
 
 impl<'a> Elementary<'a> {
-    /// None when the surface is no elementary one, or not near enough to one for curvatures to be alike.
+    /// None when the surface is no elementary one, or not near enough to one for curvatures to be alike; loose: unless it is one up
+    /// to rounding, which is then reported as `moved`.
     pub fn new(
         index: &'a SurfaceIndex,
         quantity: Quantity,
         starts: &[Start],
         relative: f64,
+        is_loose: bool,
     ) -> Option<Self> {
         let carrier = index.analytic.as_ref()?.carrier;
         if matches!(carrier.kind, Kind::Line | Kind::Circle { .. }) {
@@ -63,7 +65,7 @@ impl<'a> Elementary<'a> {
         }
         let (mut moved, mut slack) = (0.0f64, 0.0f64);
         for &(k, ..) in starts {
-            if index.patches[k].has_collapsed() {
+            if is_loose || index.patches[k].has_collapsed() {
                 moved = moved.max(carrier.deviation + index.patches[k].spread);
             } else {
                 slack = slack.max(difference(index, k, carrier.deviation)?);

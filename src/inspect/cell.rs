@@ -19,10 +19,9 @@
 //! Limit: the degree of D, 4 p - 2 or 6 p - 2 (rational), must not exceed that of a triple product, 93.
 
 use super::interval::Interval;
-use super::polynomial::{LIGHT, Polynomial};
+use super::polynomial::Polynomial;
 use super::slope::Slope;
-use crate::bezier::{Bidegree, MAX_TRIPLE, cut_2d};
-use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, sub};
+use crate::bezier::{Bidegree, MAX_TRIPLE};
 use crate::error::Error;
 
 /// A Bezier piece: homogeneous poles component by component, of which coordinates are off by at most `error` times the
@@ -34,9 +33,6 @@ pub(super) struct Piece<'a> {
     pub error: f64,
     pub steps: f64,
 }
-
-/// Greatest distance of a row of poles from a plane that counts as rounding, for a box diagonal of 1 to 2.
-const ROUNDING: f64 = 2e-13;
 
 /// Refuses degrees whose products are too long.
 pub(super) fn check_degree(degree: Bidegree, rational: bool) -> Result<(), Error> {
@@ -54,65 +50,6 @@ pub(super) fn check_degree(degree: Bidegree, rational: bool) -> Result<(), Error
 }
 
 impl Piece<'_> {
-    /// The part on a box as a piece of its own, seen from a pole in its middle, its greatest weight in [1, 2); `net` holds it.
-    pub fn part<'a>(&self, s: [f64; 2], t: [f64; 2], net: &'a mut Vec<f64>) -> Piece<'a> {
-        let count = self.degree.count();
-        net.clear();
-        net.extend_from_slice(self.poles);
-        net.chunks_exact_mut(count).for_each(|part| cut_2d(part, self.degree, s, t));
-        let ones = vec![1.0; count];
-        let (coordinates, weights) = net.split_at_mut(3 * count);
-        let heaviest = weights.iter().fold(1e-200f64, |m, w| m.max(*w));
-        // The power of two below the greatest weight, read from its bits: it divides without rounding.
-        let exponent = ((heaviest.to_bits() >> 52) & 0x7ff) as i32 - 1023;
-        let factor = if self.rational { 2f64.powi(-exponent) } else { 1.0 };
-        weights.iter_mut().for_each(|w| *w *= factor);
-        let weights: &[f64] = if self.rational { weights } else { &ones };
-        let mut size = 0.0f64;
-        for part in coordinates.chunks_exact_mut(count) {
-            part.iter_mut().for_each(|x| *x *= factor);
-            let centre = part[count / 2] / weights[count / 2];
-            for (x, w) in part.iter_mut().zip(weights) {
-                size = size.max(x.abs() + (w * centre).abs());
-                *x -= w * centre;
-            }
-        }
-        // The weights' error moves what they are multiplied with.
-        let moved = if self.rational { self.steps * size } else { 0.0 };
-        let error = self.error + moved + 8.0 * HALF_ULP * size;
-        Piece { poles: net, degree: self.degree, rational: self.rational, error, steps: self.steps }
-    }
-
-    /// How far the row of poles next to a collapsed side is from a plane through it, when that is rounding: the pole is smooth
-    /// then.
-    pub fn flatness(&self, side: usize) -> Option<f64> {
-        let Bidegree { s: m, t: n } = self.degree;
-        let count = self.degree.count();
-        let at = |along: usize, row: usize| {
-            let k = match side {
-                0 => row * (n + 1) + along,
-                1 => (m - row) * (n + 1) + along,
-                2 => along * (n + 1) + row,
-                _ => along * (n + 1) + n - row,
-            };
-            let weight = if self.rational { self.poles[3 * count + k] } else { 1.0 };
-            [0, 1, 2].map(|c| self.poles[c * count + k] / weight)
-        };
-        let (longest, deep) = if side < 2 { (n, m) } else { (m, n) };
-        if deep < 2 || longest < 1 {
-            return None;
-        }
-        let ways: Vec<Vector> = (0..=longest).map(|i| sub(at(i, 1), at(0, 0))).collect();
-        let pairs = ways.iter().flat_map(|a| ways.iter().map(|b| cross(*a, *b)));
-        let normal = pairs.max_by(|a, b| norm(*a).total_cmp(&norm(*b)))?;
-        let size = norm(normal);
-        if size.is_nan() || size <= 1e-6 * dot(ways[0], ways[0]) || size == 0.0 {
-            return None;
-        }
-        let gap = ways.iter().map(|way| (dot(*way, normal) / size).abs()).fold(0.0, f64::max);
-        (gap <= ROUNDING).then_some(gap)
-    }
-
     /// x, y, z and w; the weight of a polynomial piece is none.
     fn homogeneous(&self) -> ([Polynomial; 3], Option<Polynomial>) {
         let count = self.degree.count();
@@ -179,40 +116,11 @@ impl Parts {
         });
         Self { position, first, second, weight }
     }
-
-    /// The same of the lowest degrees that tell them to a share of their size: small boxes need no high ones.
-    fn reduced(self) -> Self {
-        let vector = |v: [Polynomial; 3]| {
-            let size = v.iter().map(Polynomial::size).fold(0.0, f64::max);
-            v.map(|f| f.reduced(LIGHT * size))
-        };
-        let weights = |(w, first, second): (Polynomial, [Polynomial; 2], [Polynomial; 3])| {
-            (w.light(), first.map(Polynomial::light), second.map(Polynomial::light))
-        };
-        Self {
-            position: vector(self.position),
-            first: self.first.map(vector),
-            second: self.second.map(vector),
-            weight: self.weight.map(weights),
-        }
-    }
 }
 
 impl Forms {
     pub fn new(piece: &Piece) -> Self {
         Self::from(Parts::new(piece))
-    }
-
-    /// As [`Self::new`], with polynomials of lower degrees where their errors allow it.
-    pub fn light(piece: &Piece) -> Self {
-        let forms = Self::from(Parts::new(piece).reduced());
-        Self {
-            metric: forms.metric.map(Polynomial::light),
-            area: forms.area.light(),
-            second: forms.second.map(Polynomial::light),
-            weight: forms.weight.map(Polynomial::light),
-            normal: forms.normal,
-        }
     }
 
     fn from(Parts { position: x, first: [xs, xt], second: seconds, weight }: Parts) -> Self {
@@ -245,31 +153,6 @@ impl Forms {
         let metric = [Polynomial::dot(s_, s_), Polynomial::dot(s_, t_), Polynomial::dot(t_, t_)];
         let area = Polynomial::dot(refs(&normal), refs(&normal));
         Self { metric, area, second, weight, normal }
-    }
-
-    /// The forms in the frame S_s / t, S_t for a side t = 0 that is a smooth pole, and likewise for other sides: what vanishes
-    /// there with t is divided by it.
-    ///
-    /// With the pole in the origin and its tangent plane z = 0, S = (t x, t y, t^2 z): S_s, and with it E, F, D, l, m, q, has
-    /// the factors t, t^2, t, t^2, t^3, t^2, t. None when a degree is too low.
-    pub fn divided(self, side: usize) -> Option<Self> {
-        let direction = side / 2;
-        let mut is_long = true;
-        let mut over = |f: Polynomial, times: usize| {
-            let degree = if direction == 0 { f.degree.s } else { f.degree.t };
-            is_long &= degree >= times;
-            if degree >= times { f.divided(side, times) } else { f }
-        };
-        let [e, f, g] = self.metric;
-        let [l, m, q] = self.second;
-        let (metric, second) = if direction == 1 {
-            ([over(e, 2), over(f, 1), g], [over(l, 3), over(m, 2), over(q, 1)])
-        } else {
-            ([e, over(f, 1), over(g, 2)], [over(l, 1), over(m, 2), over(q, 3)])
-        };
-        let area = over(self.area, 2);
-        let normal = self.normal.map(|f| over(f, 1));
-        is_long.then_some(Self { metric, area, second, weight: self.weight, normal })
     }
 
     /// The curvatures on a box; `work` is scratch memory.
@@ -385,6 +268,12 @@ pub(super) struct Known {
     pub range: Interval,
     /// Derivatives in the box's own parameters over the box, where they are known.
     pub gradient: [Interval; 2],
+}
+
+impl Known {
+    /// Nothing.
+    pub const ENTIRE: Self =
+        Self { middle: Interval::ENTIRE, range: Interval::ENTIRE, gradient: [Interval::ENTIRE; 2] };
 }
 
 impl From<Slope<2>> for Known {

@@ -5,14 +5,9 @@
 
 use super::interval::Interval;
 use super::slope::Slope;
-use crate::bezier::{
-    Bidegree, binomial, convolve, cut_2d, derivative, divided_by_side, scale_down_2d, scale_up_2d,
-};
+use crate::bezier::{Bidegree, binomial, convolve, cut_2d, derivative, scale_down_2d, scale_up_2d};
 use crate::bounds::{HALF_ULP, extent};
 use crate::index::product_steps;
-
-/// Error of polynomials of lower degree as a share of their size: well below that of the bounds that are asked for.
-pub(super) const LIGHT: f64 = 1e-8;
 
 /// A polynomial in two parameters, or in t alone (degree 0 in s).
 #[derive(Clone, Debug)]
@@ -71,42 +66,6 @@ impl Polynomial {
             (degree.s.saturating_sub(self.degree.s), degree.t.saturating_sub(self.degree.t));
         let along_s = if s > 0 { self.times(&ones(s, 0)) } else { self };
         if t > 0 { along_s.times(&ones(0, t)) } else { along_s }
-    }
-
-    /// The same polynomial up to `tolerance`, of the lowest degrees that reach it; what it is off is added to the error.
-    pub fn reduced(self, tolerance: f64) -> Self {
-        let (mut f, mut left) = (self, tolerance);
-        for along_s in [true, false] {
-            while let Some((coefficients, off)) = lowered(&f.coefficients, f.degree, along_s) {
-                if off > left {
-                    break;
-                }
-                left -= off;
-                let error = f.error + off + 16.0 * HALF_ULP * f.size();
-                let degree = f.degree.lowered(usize::from(!along_s));
-                f = Self { coefficients, degree, error };
-            }
-        }
-        f
-    }
-
-    /// As [`Self::reduced`] up to a small share of its size.
-    pub fn light(self) -> Self {
-        let size = self.size();
-        self.reduced(LIGHT * size)
-    }
-
-    /// Divided `times` times by s, 1 - s, t or 1 - t, the `side` of which it vanishes at as often.
-    pub fn divided(self, side: usize, times: usize) -> Self {
-        let n = if side < 2 { self.degree.s } else { self.degree.t };
-        let (mut f, mut degree) = (self.coefficients, self.degree);
-        for _ in 0..times {
-            f = divided_by_side(&f, degree, side);
-            degree = degree.lowered(side / 2);
-        }
-        let size = f.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-        let error = self.error * binomial(n, times) + 4.0 * times as f64 * HALF_ULP * size;
-        Self { coefficients: f, degree, error }
     }
 
     /// `self + factor * other`.
@@ -172,41 +131,6 @@ impl Polynomial {
     }
 }
 
-/// Coefficients of the polynomial of one degree less that shares its ends, from both ends to the middle, and the greatest
-/// coefficient of the difference; none for degrees below 2.
-///
-/// Reference: Forrest, *Interactive interpolation and approximation by Bezier polynomials*, 1972.
-fn lowered(f: &[f64], degree: Bidegree, along_s: bool) -> Option<(Vec<f64>, f64)> {
-    let (rows, width) = (degree.s + 1, degree.t + 1);
-    let n = if along_s { degree.s } else { degree.t };
-    if n < 2 {
-        return None;
-    }
-    let (strands, stride) = if along_s { (width, width) } else { (rows, 1) };
-    let mut out = vec![0.0; f.len() / (n + 1) * n];
-    let (mut off, whole) = (0.0f64, n as f64);
-    for strand in 0..strands {
-        let (from, to) = if along_s { (strand, strand) } else { (strand * width, strand * n) };
-        let old = |i: usize| f[from + i * stride];
-        let half = n / 2;
-        let at = |i: usize| to + i * stride;
-        out[at(0)] = old(0);
-        for i in 1..half {
-            out[at(i)] = (whole * old(i) - i as f64 * out[at(i - 1)]) / (n - i) as f64;
-        }
-        out[at(n - 1)] = old(n);
-        for i in (half + 1..n).rev() {
-            out[at(i - 1)] = (whole * old(i) - (n - i) as f64 * out[at(i)]) / i as f64;
-        }
-        for i in 1..n {
-            let share = i as f64 / whole;
-            let raised = share * out[at(i - 1)] + (1.0 - share) * out[at(i)];
-            off = off.max((raised - old(i)).abs());
-        }
-    }
-    off.is_finite().then_some((out, off))
-}
-
 fn differences<'a>(pairs: impl Iterator<Item = (&'a f64, &'a f64)>) -> (f64, f64) {
     pairs.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (a, b)| {
         let x = b - a;
@@ -229,23 +153,6 @@ fn middle(f: &[f64], degree: Bidegree) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_polynomial_of_lower_degree_is_no_farther_off_than_it_says() {
-        let degree = Bidegree { s: 5, t: 7 };
-        let value = |i: usize, j: usize| (0.3 * i as f64 + 0.01 * (j * j) as f64).sin();
-        let f: Vec<f64> = (0..48).map(|k| value(k / 8, k % 8)).collect();
-        let f = Polynomial::new(&f, degree, 0.0);
-        let g = f.clone().reduced(1e-3);
-        assert!(g.degree.s < 5 && g.degree.t < 7 && g.error < 1.1e-3, "{:?}", g.degree);
-        let at =
-            |p: &Polynomial, s: f64, t: f64| p.on([s, s], [t, t], &mut Vec::new()).middle.middle();
-        for k in 0..=100 {
-            let (s, t) = (k as f64 / 100.0, (k * 37 % 101) as f64 / 101.0);
-            assert!((at(&f, s, t) - at(&g, s, t)).abs() <= g.error);
-        }
-        assert_eq!(f.clone().reduced(0.0).degree, degree);
-    }
 
     #[test]
     fn products_and_slopes_hold_the_values() {

@@ -4,88 +4,55 @@
 //!   elementary surfaces      closed forms                               (`carrier`)
 //!   others                   climbs from samples: a good inner bound    (`climb`)
 //!                            branch and bound over boxes                (`search`)
-//!                              range of a box: hulls of derivatives (`glance`), slopes (`cell`),
-//!                              sign of one polynomial (`level`)
+//!                              range of a box: hulls of derivatives (`glance`), cubic models (`local`)
+//!   singular boxes           orders of growth: bounded by nothing?      (`growth`)
 //! ```
 //!
 //! The inner bound of an extreme is attained (proven at the middle of a box), the outer one holds everywhere. At a collapsed edge
 //! that is a smooth pole the vanishing factors are divided out; where the parametrisation is singular otherwise (tips, cusps)
-//! curvatures are not bounded by any box: such boxes are excluded once they are narrow, and reported.
+//! curvatures are not bounded by any box: such boxes are excluded once they are narrow, and reported. The search is then run again
+//! over the rest.
 //!
 //! Limit: beside a singularity the cost grows; the budget then ends the search, with honest bounds.
 
 use super::carrier::Elementary;
-use super::cell::{Bending, Forms, Known, Piece, check_degree};
+use super::cell::{Bending, Known, check_degree};
 use super::climb::places;
 use super::glance::glance;
+use super::growth::unbounded;
 use super::interval::Interval;
+use super::local::{Local, Room};
+use super::net::Nets;
 use super::request::{
-    Quantity, Range, RangeOptions, areas_inside, check, collapsed_side, known, parts_inside,
-    patch_piece, segment_piece,
+    Quantity, Range, RangeOptions, Unbounded, areas_inside, check, collapsed_side, known,
+    parts_inside, patch_piece, segment_piece,
 };
-use super::search::{Field, Start, found};
+use super::search::{Field, Start, Task, found};
 use crate::bezier::Bidegree;
 use crate::error::Error;
 use crate::index::{IndexedCurve, IndexedSurface, Span, SurfaceIndex};
 
-/// Boxes that become pieces of their own at most.
-const MOST_LOCAL: usize = 20_000;
+/// Searches at most: each may meet singular boxes that the one before did not.
+const ROUNDS: usize = 3;
+
+/// Boxes at most before closed forms that hold up to rounding are tried.
+const SHORT: u64 = 1_000;
+
+/// Excluded areas of which the rim is looked at first.
+const MOST_RIMS: usize = 64;
+
+/// Excluded areas of a piece that are kept apart.
+const MOST_AREAS: usize = 8;
 
 /// The patches of a surface.
 struct Patches<'a> {
     index: &'a SurfaceIndex,
     quantity: Quantity,
-    forms: Vec<Option<Forms>>,
-    /// Boxes that are pieces of their own; their numbers follow those of the patches.
-    local: Vec<(Start, Forms)>,
-    /// How far nets were moved to be flat at their poles.
+    nets: Nets<'a>,
+    locals: Vec<Option<Local>>,
+    /// How far patches were moved to be flat at their poles.
     moved: f64,
-    net: Vec<f64>,
-    work: Vec<f64>,
-}
-
-/// The forms of a piece on a box of a patch; those of smooth poles that the box touches divided out.
-fn forms(index: &SurfaceIndex, piece: Piece, (k, s, t): Start, moved: &mut f64) -> Forms {
-    let patch = &index.patches[k];
-    let touched = [s[0] == 0.0, s[1] == 1.0, t[0] == 0.0, t[1] == 1.0];
-    let sides: Vec<usize> = (0..4).filter(|&i| touched[i] && patch.collapsed[i]).collect();
-    if sides.is_empty() {
-        return Forms::light(&piece);
-    }
-    // Two sides that meet in a corner leave no frame there.
-    if sides.iter().any(|side| side / 2 != sides[0] / 2) {
-        return Forms::new(&piece);
-    }
-    let gaps: Option<Vec<f64>> = sides.iter().map(|&side| piece.flatness(side)).collect();
-    let Some(gaps) = gaps else { return Forms::new(&piece) };
-    let gap = gaps.iter().fold(0.0, |a, b| a + b);
-    let flat = Piece { error: piece.error + gap, ..piece };
-    let divided = sides.iter().try_fold(Forms::new(&flat), |forms, &side| forms.divided(side));
-    match divided {
-        Some(forms) => {
-            *moved = moved.max(gap + patch.spread + piece.error);
-            forms
-        }
-        None => Forms::new(&piece),
-    }
-}
-
-impl Patches<'_> {
-    /// The forms of a box of a patch.
-    fn part(&mut self, at: Start) -> Forms {
-        let part = patch_piece(self.index, at.0).part(at.1, at.2, &mut self.net);
-        forms(self.index, part, at, &mut self.moved)
-    }
-
-    fn forms(&mut self, k: usize) -> &Forms {
-        if let Some(k) = k.checked_sub(self.forms.len()) {
-            return &self.local[k].1;
-        }
-        let (index, moved) = (self.index, &mut self.moved);
-        let whole = [0.0, 1.0];
-        self.forms[k]
-            .get_or_insert_with(|| forms(index, patch_piece(index, k), (k, whole, whole), moved))
-    }
+    room: Room,
 }
 
 impl Field for Patches<'_> {
@@ -94,52 +61,61 @@ impl Field for Patches<'_> {
     }
 
     fn on(&mut self, (k, s, t): Start) -> Known {
-        let mut work = std::mem::take(&mut self.work);
-        let shape = self.forms(k).on(s, t, &mut work);
-        self.work = work;
-        known(&shape, self.quantity)
-    }
-
-    fn avoids(&mut self, at: Start, value: f64) -> Option<bool> {
-        let (k, s, t) = at;
-        let (quantity, mut work) = (self.quantity, std::mem::take(&mut self.work));
-        let avoids = if s == [0.0, 1.0] && t == [0.0, 1.0] {
-            self.forms(k).avoids(quantity, value, &mut work)
-        } else {
-            self.part(self.origin(at)).avoids(quantity, value, &mut work)
-        };
-        self.work = work;
-        avoids
-    }
-
-    fn local(&mut self, at: Start) -> Option<Start> {
-        let origin = self.origin(at);
-        let degree = self.index.degree;
-        let is_low = degree.s.max(degree.t) <= if self.index.rational { 2 } else { 3 };
-        // Beside a smooth pole the forms of the patch, with its factors divided out, are the better ones.
-        if self.local.len() >= MOST_LOCAL || is_low || self.index.patches[origin.0].has_collapsed()
-        {
-            return None;
+        if self.locals[k].is_none() {
+            let local = Local::new(&mut self.nets, self.index, k);
+            self.moved = self.moved.max(local.moved);
+            self.locals[k] = Some(local);
         }
-        let forms = self.part(origin);
-        self.local.push((origin, forms));
-        Some((self.forms.len() + self.local.len() - 1, [0.0, 1.0], [0.0, 1.0]))
+        match &self.locals[k] {
+            Some(local) => local.on(s, t, self.quantity, &mut self.room),
+            None => Known::ENTIRE,
+        }
     }
 
-    fn origin(&self, at: Start) -> Start {
-        let (k, s, t) = at;
-        let Some((whole, _)) = k.checked_sub(self.forms.len()).map(|k| &self.local[k]) else {
-            return at;
-        };
-        let (k, u, v) = *whole;
-        // The ends are kept to the bit: they tell which sides a box touches.
-        let place = |[a, b]: [f64; 2], x: f64| if x == 1.0 { b } else { a + (b - a) * x };
-        (k, s.map(|x| place(u, x)), t.map(|x| place(v, x)))
+    fn across(&self, (k, s, t): Start) -> Option<usize> {
+        let is_smooth = self.locals[k].as_ref().is_some_and(Local::is_smooth);
+        if is_smooth { None } else { collapsed_side(self.index, k, s, t) }
     }
+}
 
-    fn across(&self, at: Start) -> Option<usize> {
-        let (k, s, t) = self.origin(at);
-        collapsed_side(self.index, k, s, t)
+impl Patches<'_> {
+    /// Where the quantity is proven to have no bound in an area that touches sides of its patch.
+    fn unbounded(
+        &mut self,
+        &(k, s, t): &Start,
+        spans: &dyn Fn(usize) -> [Span; 2],
+    ) -> Option<Unbounded> {
+        let is_smooth = self.locals[k].as_ref().is_some_and(Local::is_smooth);
+        let touched = [s[0] == 0.0, s[1] == 1.0, t[0] == 0.0, t[1] == 1.0];
+        let touched = touched.map(|touched| touched && !is_smooth);
+        let (mut best, mut at) = ([false; 2], None);
+        for side in (0..4).filter(|&side| touched[side]) {
+            let is_collapsed = self.index.patches[k].collapsed[side];
+            // Along the side, as it is after turning.
+            let along = if side < 2 { t } else { s };
+            let ends = [0.0, 1.0].map(|x| (x, along.contains(&x)));
+            let inside = [0.5, 0.25, 0.75].map(|x| along[0] + x * (along[1] - along[0]));
+            let inside = inside.map(|x| (x, is_collapsed));
+            for (x, _) in inside.into_iter().chain(ends).filter(|place| place.1) {
+                let end = (side % 2) as f64;
+                let corner = x.round();
+                let corner = if side < 2 { [end, corner] } else { [corner, end] };
+                let (net, is_mirrored) = self.nets.net(k, corner).turned(side);
+                let (net, moved) = if is_collapsed { net.collapsed() } else { (net, 0.0) };
+                let sign = if is_mirrored { -1.0 } else { 1.0 };
+                let found = unbounded(&net, x, self.quantity, sign);
+                if found != [false; 2] {
+                    self.moved = self.moved.max(moved);
+                    let [u, v] = spans(k);
+                    let place = if side < 2 { [end, x] } else { [x, end] };
+                    at = at.or(Some([u.global(place[0]), v.global(place[1])]));
+                    best = [best[0] || found[0], best[1] || found[1]];
+                }
+            }
+        }
+        let [u, v] = spans(k);
+        let domain = [u.global(s[0]), u.global(s[1]), v.global(t[0]), v.global(t[1])];
+        at.map(|at| Unbounded { at, domain, falls: best[0], grows: best[1] })
     }
 }
 
@@ -164,22 +140,103 @@ pub fn surface_range(
     let spans = |k: usize| [index.patches[k].u, index.patches[k].v];
     let scale = index.frame.scale;
     let factor = if quantity == Quantity::Gaussian { scale * scale } else { scale };
-    if let Some(mut field) = Elementary::new(index, quantity, &starts, options.relative) {
-        let range = found(&mut field, &starts, &[], &spans, factor, options, poll)?;
-        return Ok(Range { moved: field.moved / scale, ..range });
+    let task = Task { starts: &starts, places: &[], left_out: &[], spans: &spans, factor };
+    let elementary =
+        |is_loose: bool| Elementary::new(index, quantity, &starts, options.relative, is_loose);
+    let closed = |mut field: Elementary, poll: &mut dyn FnMut() -> bool| {
+        let found = found(&mut field, &task, options, poll)?;
+        // A cone's tip is not the carrier's business.
+        let range = Some(found.range).filter(|range| range.proven);
+        Ok::<_, Error>(range.map(|range| Range { moved: field.moved / scale, ..range }))
+    };
+    if let Some(field) = elementary(false)
+        && let Some(range) = closed(field, poll)?
+    {
+        return Ok(range);
     }
     let mut field = Patches {
         index,
         quantity,
-        forms: (0..index.patches.len()).map(|_| None).collect(),
-        local: Vec::new(),
+        nets: Nets::new(surface.surface(), index),
+        locals: (0..index.patches.len()).map(|_| None).collect(),
         moved: 0.0,
-        net: Vec::new(),
-        work: Vec::new(),
+        room: Room::default(),
     };
     let thought = places(surface.surface(), &spans, &starts, quantity, options.side);
-    let range = found(&mut field, &starts, &thought, &spans, factor, options, poll)?;
-    Ok(Range { moved: field.moved / scale, ..range })
+    // Where the surface is singular, closed forms that hold up to rounding say more than a long search.
+    let loose = elementary(true);
+    let most = if loose.is_some() { SHORT.min(options.budget) } else { options.budget };
+    let first = RangeOptions { budget: most, ..*options };
+    let mut all = found(&mut field, &Task { places: &thought, ..task }, &first, poll)?;
+    if let Some(loose) = loose
+        && !all.range.proven
+    {
+        let is_bounded = all.range.least[0].is_finite() && all.range.greatest[1].is_finite();
+        let is_singular = !all.excluded.is_empty() || !is_bounded;
+        if is_singular && let Some(range) = closed(loose, poll)? {
+            return Ok(range);
+        }
+        if !all.is_complete {
+            all = found(&mut field, &Task { places: &thought, ..task }, options, poll)?;
+        }
+    }
+    let (mut left_out, mut boxes) = (Vec::new(), all.range.boxes);
+    let mut unbounded = Vec::new();
+    // What is beside a singularity is not known before it has been met once.
+    for _ in 0..ROUNDS {
+        if all.excluded.is_empty() {
+            break;
+        }
+        for area in &all.excluded {
+            unbounded.extend(field.unbounded(area, &spans));
+        }
+        left_out.append(&mut all.excluded);
+        join(&mut left_out);
+        let mut around = thought.clone();
+        around.extend(left_out.iter().take(MOST_RIMS).flat_map(rim));
+        all = found(
+            &mut field,
+            &Task { places: &around, left_out: &left_out, ..task },
+            options,
+            poll,
+        )?;
+        boxes += all.range.boxes;
+    }
+    let rest_proven = all.is_complete && all.excluded.is_empty();
+    Ok(Range { moved: field.moved / scale, unbounded, boxes, rest_proven, ..all.range })
+}
+
+/// Makes one area of those of a piece that are many.
+fn join(areas: &mut Vec<Start>) {
+    areas.sort_by_key(|area| area.0);
+    let mut joined: Vec<Start> = Vec::new();
+    for group in areas.chunk_by(|a, b| a.0 == b.0) {
+        if group.len() <= MOST_AREAS {
+            joined.extend(group);
+            continue;
+        }
+        let over = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+        let all = |all: Start, one: &Start| (all.0, over(all.1, one.1), over(all.2, one.2));
+        joined.push(group.iter().fold(group[0], all));
+    }
+    *areas = joined;
+}
+
+/// Places around an area inside its piece.
+fn rim(&(k, s, t): &Start) -> Vec<Start> {
+    let mut places = Vec::new();
+    for x in [0.1, 0.3, 0.5, 0.7, 0.9] {
+        let on = |[a, b]: [f64; 2]| [a + x * (b - a); 2];
+        for end in [0, 1] {
+            if s[end] > 0.0 && s[end] < 1.0 {
+                places.push((k, [s[end]; 2], on(t)));
+            }
+            if t[end] > 0.0 && t[end] < 1.0 {
+                places.push((k, on(s), [t[end]; 2]));
+            }
+        }
+    }
+    places
 }
 
 /// The segments of a curve.
@@ -221,7 +278,11 @@ pub fn curve_range(
     let nothing = Span { ends: [0.0; 2], balance: 1.0 };
     let spans_of = |k: usize| [nothing, spans[k]];
     let scale = index.frame.scale;
-    let mut range = found(&mut field, &starts, &[], &spans_of, scale, options, poll)?;
+    let (starts, factor) = (&starts, scale);
+    let task = Task { starts, places: &[], left_out: &[], spans: &spans_of, factor };
+    let mut range = found(&mut field, &task, options, poll)?.range;
+    // Values attained beside a cusp say nothing of the rest.
+    range.rest_proven = range.proven;
     range.at_least = [range.at_least[1], 0.0];
     range.at_greatest = [range.at_greatest[1], 0.0];
     for area in &mut range.excluded {

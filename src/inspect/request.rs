@@ -64,8 +64,12 @@ pub struct Range {
     pub at_least: [f64; 2],
     /// Parameters where the inner bound of the greatest is attained.
     pub at_greatest: [f64; 2],
-    /// Parameter boxes u0, u1, v0, v1 of which nothing is proven: the shape is singular there.
+    /// Parameter boxes u0, u1, v0, v1 that are left out: the shape is singular there. The bounds are those of the rest.
     pub excluded: Vec<[f64; 4]>,
+    /// Where the quantity is proven to have no bound, each in one of the excluded boxes.
+    pub unbounded: Vec<Unbounded>,
+    /// Whether the gaps are allowed ones outside of what is excluded.
+    pub rest_proven: bool,
     /// Whether the gaps are allowed ones and nothing is excluded.
     pub proven: bool,
     /// Length. 0: the bounds are those of the shape. Otherwise they are those of a shape from which no point of this one is farther,
@@ -73,6 +77,19 @@ pub struct Range {
     pub moved: f64,
     /// Boxes looked at.
     pub boxes: u64,
+}
+
+/// A place near which a quantity passes every bound: a tip, a cusp.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unbounded {
+    /// Parameters.
+    pub at: [f64; 2],
+    /// The excluded box that holds it: u0, u1, v0, v1.
+    pub domain: [f64; 4],
+    /// Whether the quantity falls below every number.
+    pub falls: bool,
+    /// Whether it exceeds every number.
+    pub grows: bool,
 }
 
 /// A patch of an index with its rounding.

@@ -23,14 +23,8 @@ const NARROW: f64 = 1.0 / 1024.0;
 /// Curvature of a sphere about as large as the shape, in the index's coordinates: what gaps of small curvatures are measured by.
 pub(super) const FLOOR: f64 = 0.5;
 
-/// Halvings between two tries to prove that a box does not take a value.
-const EVERY: u32 = 3;
-
-/// Halvings up to which boxes become pieces of their own: rounding counts more the smaller a piece is.
-const LOCAL: u32 = 9;
-
-/// Tries after so many halvings that may all fail; then at least one of so many must succeed.
-const TRIES: u64 = 8;
+/// Halvings from which on rounding may be all that is seen.
+const DEEP: u32 = 21;
 
 /// A piece and the part of it.
 pub(super) type Start = (usize, [f64; 2], [f64; 2]);
@@ -44,21 +38,6 @@ pub(super) trait Field {
 
     /// What is known on a box.
     fn on(&mut self, start: Start) -> Known;
-
-    /// Whether the function is proven not to be `value` anywhere on a box; none when that cannot be looked at.
-    fn avoids(&mut self, _: Start, _value: f64) -> Option<bool> {
-        None
-    }
-
-    /// The box as a piece of its own, on which later boxes cost less.
-    fn local(&mut self, _: Start) -> Option<Start> {
-        None
-    }
-
-    /// The box of the piece that a box of a piece made by [`Self::local`] stands for.
-    fn origin(&self, at: Start) -> Start {
-        at
-    }
 
     /// Direction across a side on which the piece is singular and that the box touches.
     fn across(&self, _: Start) -> Option<usize> {
@@ -116,8 +95,8 @@ struct Search<'a> {
     relative: f64,
     side: Side,
     boxes: u64,
-    /// Tries and successes of `avoids` by depth.
-    tries: [[u64; 2]; 16],
+    /// Areas that are not looked at.
+    left_out: &'a [Start],
     /// Whether s is a parameter at all.
     has_s: bool,
 }
@@ -129,8 +108,9 @@ impl Search<'_> {
         let known = self.field.on(at);
         self.boxes += 1;
         let place = [0.5 * (s[0] + s[1]), 0.5 * (t[0] + t[1])];
-        let (piece, s, t) = self.field.origin((piece, [place[0]; 2], [place[1]; 2]));
-        let place = [s[0], t[0]];
+        if self.left_out.iter().any(|area| holds(area, piece, place)) {
+            return known;
+        }
         let Interval { low, high } = known.middle;
         if high < self.least.value {
             self.least = Attained { value: high, piece, place };
@@ -142,6 +122,15 @@ impl Search<'_> {
     }
 
     fn add(&mut self, at: Start, depth: u32) {
+        let overlap = |area: &&Start| area.0 == at.0 && overlaps([area.1, area.2], [at.1, at.2]);
+        if let Some(area) = self.left_out.iter().find(overlap) {
+            if within(at.1, area.1) && within(at.2, area.2) {
+                return;
+            }
+            // Halved until it is inside or outside.
+            let depth = Some(depth);
+            return self.push(Area { at, known: Known::ENTIRE, depth });
+        }
         let known = self.look(at);
         self.push(Area { at, known, depth: Some(depth) });
     }
@@ -152,6 +141,9 @@ impl Search<'_> {
 
     /// A piece: a glance at first, when that tells anything.
     fn begin(&mut self, at: Start) {
+        if self.left_out.iter().any(|area| area.0 == at.0) {
+            return self.add(at, 0);
+        }
         let Some(range) = self.field.glance(at.0) else { return self.add(at, 0) };
         let entire = Interval::ENTIRE;
         let known = Known { middle: entire, range, gradient: [entire; 2] };
@@ -197,16 +189,7 @@ impl Search<'_> {
             match area.depth {
                 None => self.add(area.at, 0),
                 Some(depth) if self.is_noise(&area, depth) => self.undecided.push(area),
-                Some(depth) => {
-                    let mut area = area;
-                    if depth > 0 && depth <= LOCAL && depth % EVERY == 0 {
-                        area.at = self.field.local(area.at).unwrap_or(area.at);
-                    }
-                    match self.tried(area, depth) {
-                        Some(area) => self.push(area),
-                        None => self.halve(area, depth),
-                    }
-                }
+                Some(depth) => self.halve(area, depth),
             }
         }
         Ok(self.undecided.is_empty())
@@ -217,61 +200,23 @@ impl Search<'_> {
         let Interval { low, high } = area.known.middle;
         let (gap, range) = (high - low, area.known.range.high - area.known.range.low);
         let allowed = self.allowed(low.abs().min(high.abs()));
-        depth >= 7 * EVERY && gap > allowed && range <= 4.0 * gap && range.is_finite()
-    }
-
-    /// As [`Self::cut_off`], when it is time to try and tries have been worth their while.
-    fn tried(&mut self, area: Area, depth: u32) -> Option<Area> {
-        let slot = (depth / EVERY).min(15) as usize;
-        let [tries, wins] = self.tries[slot];
-        if !depth.is_multiple_of(EVERY) || tries >= TRIES * (wins + 1) {
-            return None;
-        }
-        let (area, is_tried) = self.cut_off(area);
-        let is_won = self.excess(&area) <= 0.0;
-        if is_tried {
-            self.tries[slot] = [tries + 1, wins + u64::from(is_won)];
-        }
-        is_won.then_some(area)
-    }
-
-    /// The area with its range cut off at the allowed values, when they are proven not to be taken; and whether that could be
-    /// looked at.
-    fn cut_off(&mut self, area: Area) -> (Area, bool) {
-        let (mut area, mut is_tried) = (area, false);
-        let Interval { low, high } = area.known.middle;
-        let above = self.greatest.value + 0.999 * self.allowed(self.greatest.value);
-        let below = self.least.value - 0.999 * self.allowed(self.least.value);
-        if self.side != Side::Least && area.known.range.high > above && high < above {
-            let found = self.field.avoids(area.at, above);
-            is_tried |= found.is_some();
-            if found == Some(true) {
-                area.known.range.high = above;
-            }
-        }
-        if self.side != Side::Greatest && area.known.range.low < below && low > below {
-            let found = self.field.avoids(area.at, below);
-            is_tried |= found.is_some();
-            if found == Some(true) {
-                area.known.range.low = below;
-            }
-        }
-        (area, is_tried)
+        depth >= DEEP && gap > allowed && range <= 4.0 * gap && range.is_finite()
     }
 
     fn halve(&mut self, area: Area, depth: u32) {
         let (piece, s, t) = area.at;
-        let (_, across_s, across_t) = self.field.origin(area.at);
-        let widths = [across_s[1] - across_s[0], across_t[1] - across_t[0]];
+        let widths = [s[1] - s[0], t[1] - t[0]];
         let is_singular = area.known.range.low.is_infinite() || area.known.range.high.is_infinite();
         let across = if is_singular { self.field.across(area.at) } else { None };
-        let direction = across.unwrap_or_else(|| self.direction(&area, widths));
+        let left_out = self.sticking_out(area.at);
+        let wanted = left_out.or(across);
+        let direction = wanted.unwrap_or_else(|| self.direction(&area, widths));
         let narrow = |k: usize| widths[k] <= NARROW;
         let is_last = match across {
             Some(k) => narrow(k),
             None => narrow(1) && (narrow(0) || !self.has_s),
         };
-        if is_singular && is_last {
+        if is_singular && is_last && left_out.is_none() {
             self.excluded.push(area);
             return;
         }
@@ -287,6 +232,17 @@ impl Search<'_> {
         }
     }
 
+    /// The direction in which a box reaches out of an area that is left out.
+    fn sticking_out(&self, (piece, s, t): Start) -> Option<usize> {
+        let overlap = |area: &&Start| area.0 == piece && overlaps([area.1, area.2], [s, t]);
+        let area = self.left_out.iter().find(overlap)?;
+        let out = |inner: [f64; 2], outer: [f64; 2]| {
+            let cut = |x: f64| inner[0] < x && x < inner[1];
+            if cut(outer[0]) || cut(outer[1]) { inner[1] - inner[0] } else { 0.0 }
+        };
+        Some(usize::from(out(t, area.2) > out(s, area.1)))
+    }
+
     /// The direction in which the slope is known least.
     fn direction(&self, area: &Area, widths: [f64; 2]) -> usize {
         if !self.has_s {
@@ -294,7 +250,8 @@ impl Search<'_> {
         }
         let spread = area.known.gradient.map(|slope| slope.high - slope.low);
         let wider = usize::from(widths[1] > widths[0]);
-        if !spread.iter().all(|x| x.is_finite()) || widths[wider] > 64.0 * widths[1 - wider] {
+        let is_known = spread.iter().all(|x| x.is_finite()) && spread != [0.0; 2];
+        if !is_known || widths[wider] > 64.0 * widths[1 - wider] {
             return wider;
         }
         usize::from(spread[1] > spread[0])
@@ -309,16 +266,53 @@ impl Search<'_> {
     }
 }
 
-/// Runs the search over `starts` and gives the range in units of `factor`. `places` are where the extremes are thought to be.
+fn within(inner: [f64; 2], outer: [f64; 2]) -> bool {
+    outer[0] <= inner[0] && inner[1] <= outer[1]
+}
+
+/// Whether two boxes have more than their borders in common.
+fn overlaps(a: [[f64; 2]; 2], b: [[f64; 2]; 2]) -> bool {
+    (0..2).all(|k| a[k][0] < b[k][1] && b[k][0] < a[k][1])
+}
+
+/// Whether an area holds a place, its border counted where it is that of the piece.
+fn holds(area: &Start, piece: usize, place: [f64; 2]) -> bool {
+    let inside = |[a, b]: [f64; 2], x: f64| {
+        (a < x || (a == 0.0 && x == 0.0)) && (x < b || (b == 1.0 && x == 1.0))
+    };
+    area.0 == piece && inside(area.1, place[0]) && inside(area.2, place[1])
+}
+
+/// What a search came to.
+pub(super) struct Found {
+    pub range: Range,
+    /// Whether all gaps are allowed ones, outside of what is excluded.
+    pub is_complete: bool,
+    /// The boxes that are singular, as parts of pieces.
+    pub excluded: Vec<Start>,
+}
+
+/// What a search is over.
+pub(super) struct Task<'a> {
+    pub starts: &'a [Start],
+    /// Where the extremes are thought to be.
+    pub places: &'a [Start],
+    /// Areas that are not looked at.
+    pub left_out: &'a [Start],
+    /// The parameters of a piece.
+    pub spans: &'a dyn Fn(usize) -> [Span; 2],
+    /// The unit of the range.
+    pub factor: f64,
+}
+
+/// Runs the search.
 pub(super) fn found(
     field: &mut dyn Field,
-    starts: &[Start],
-    places: &[Start],
-    spans: &dyn Fn(usize) -> [Span; 2],
-    factor: f64,
+    task: &Task,
     options: &RangeOptions,
     poll: &mut dyn FnMut() -> bool,
-) -> Result<Range, Error> {
+) -> Result<Found, Error> {
+    let (spans, factor) = (task.spans, task.factor);
     let has_s = spans(0)[0].ends[0] < spans(0)[0].ends[1];
     let nowhere = |value: f64| Attained { value, piece: 0, place: [0.5; 2] };
     let mut search = Search {
@@ -331,35 +325,37 @@ pub(super) fn found(
         relative: options.relative,
         side: options.side,
         boxes: 0,
-        tries: [[0; 2]; 16],
+        left_out: task.left_out,
         has_s,
     };
-    for &place in places {
+    for &place in task.places {
         search.look(place);
     }
-    for &start in starts {
+    for &start in task.starts {
         search.begin(start);
     }
-    let complete = search.run(options.budget, poll)?;
+    let is_complete = search.run(options.budget, poll)?;
     let [low, high] = search.bounds();
     let place = |at: &Attained| {
         let [u, v] = spans(at.piece);
         [u.global(at.place[0]), v.global(at.place[1])]
     };
-    let field = &*search.field;
-    let outside = |area: &Area| {
-        let (piece, s, t) = field.origin(area.at);
+    let excluded: Vec<Start> = search.excluded.iter().map(|area| area.at).collect();
+    let outside = |&(piece, s, t): &Start| {
         let [u, v] = spans(piece);
         [u.global(s[0]), u.global(s[1]), v.global(t[0]), v.global(t[1])]
     };
-    Ok(Range {
+    let range = Range {
         least: [low * factor, search.least.value * factor],
         greatest: [search.greatest.value * factor, high * factor],
         at_least: place(&search.least),
         at_greatest: place(&search.greatest),
-        excluded: search.excluded.iter().map(outside).collect(),
-        proven: complete && search.excluded.is_empty(),
+        excluded: excluded.iter().chain(task.left_out).map(outside).collect(),
+        unbounded: Vec::new(),
+        rest_proven: is_complete,
+        proven: is_complete && excluded.is_empty() && task.left_out.is_empty(),
         moved: 0.0,
         boxes: search.boxes,
-    })
+    };
+    Ok(Found { range, is_complete, excluded })
 }

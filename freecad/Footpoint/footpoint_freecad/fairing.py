@@ -45,6 +45,14 @@ def _between(low: float, high: float) -> str:
     return f"{low:.6g} to {high:.6g}"
 
 
+def _standing(found: Any) -> str:
+    if found.proven:
+        return ", proven"
+    if found.unbounded[1] and found.rest_proven:
+        return f", proven but for {found.excluded:.2%} beside tips or cusps, where it is 0"
+    return f", not proven to 0.1 % ({found.excluded:.2%} left out)"
+
+
 def inspected(shape: Any) -> tuple[list[str], Any]:
     """What there is to say about the bending of an edge or a face, and marks: a comb, or the place of the least radius and the umbilics."""
     import FreeCAD
@@ -52,7 +60,7 @@ def inspected(shape: Any) -> tuple[list[str], Any]:
     one, inspect = of(shape), library().inspect
     found = inspect.curvature_range(one, side=inspect.Side.GREATEST)
     radius = found.radius
-    text = [f"least radius of curvature: {_between(*radius)} mm" + (", proven" if found.proven else f", not proven to 0.1 % ({found.excluded:.2%} left out)")]
+    text = [f"least radius of curvature: {_between(*radius)} mm" + _standing(found)]
     if isinstance(one, library().Surface):
         for name, quantity in (("Gaussian", inspect.Quantity.GAUSSIAN), ("mean", inspect.Quantity.MEAN)):
             part = inspect.curvature_range(one, quantity, budget=20_000)
