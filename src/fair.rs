@@ -22,9 +22,11 @@ mod slope;
 
 mod length;
 
-mod solve;
+mod problem;
 
 mod equations;
+
+mod solve;
 
 mod local;
 

@@ -2,9 +2,9 @@
 
 use super::cells::Functional;
 use super::length::{LengthLimit, arc_length};
+use super::problem::{Problem, State, differences};
 use super::rows::{curve_energy, curve_rows, hull_deviation, jumps, refinement};
 use super::slope::Slope;
-use super::solve::{Problem, State, differences};
 use super::{Faired, Method};
 use crate::bounds::{Vector, cross, dot, norm, sub};
 use crate::curve::Curve;

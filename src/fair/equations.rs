@@ -1,7 +1,7 @@
 //! The equations of all poles at once: matrix and right-hand side of energy and distance, the penalty of the tube, the kept forms.
 
 use super::cells::{Cell, Functional};
-use super::solve::{Problem, State, differences};
+use super::problem::{Problem, State, differences};
 use crate::bounds::{Vector, add, scaled};
 use crate::curve::insertion::{append, filled};
 use crate::error::Error;

@@ -8,7 +8,7 @@
 use super::LEAST_GAIN;
 use super::cells::{Cell, Lists};
 use super::local::{ROUNDS, within};
-use super::solve::{Problem, State};
+use super::problem::{Problem, State};
 use crate::bounds::{Vector, add, dot, scaled, sub};
 use crate::curve::insertion::{append, filled};
 use crate::error::Error;

@@ -7,7 +7,7 @@
 
 use super::LEAST_GAIN;
 use super::cells::Lists;
-use super::solve::{Problem, State};
+use super::problem::{Problem, State};
 use crate::bounds::{Vector, add, dot, norm, scaled, sub};
 use crate::curve::insertion::{append, collect, copy_of, filled};
 use crate::error::Error;

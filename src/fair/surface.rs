@@ -2,8 +2,8 @@
 
 use super::cells::Functional;
 use super::curve::{check_deviation, check_number, quarters, repeats, wrapped};
+use super::problem::{Problem, State, differences};
 use super::rows::{hull_deviation, knot_jumps, refinement, surface_energy};
-use super::solve::{Problem, State, differences};
 use super::{Faired, Method};
 use crate::bounds::Vector;
 use crate::curve::insertion::{append, copy_of, filled};
