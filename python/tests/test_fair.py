@@ -71,7 +71,7 @@ def test_curvatures_have_their_closed_forms():
 def test_a_tip_has_no_bound_and_the_rest_has():
     # The graph of a cone over three lines of a bent fan: a quarter of a tent with a bent foot.
     foot = [[1, 0, -1], [1, 1, -1.3], [0, 1, -1]]
-    tent = footpoint.Surface((2, 1), ([0, 0, 0, 1, 1, 1], [0, 0, 1, 1]), [[[0, 0, 0], pole] for pole in foot])
+    tent = footpoint.Surface(2, 1, [0, 0, 0, 1, 1, 1], [0, 0, 1, 1], [[[0, 0, 0], pole] for pole in foot])
     found, places = inspect.curvature_range_places(tent, side=inspect.Side.GREATEST)
     assert found.unbounded == (False, True) and found.rest_proven and not found.proven and 0 < found.excluded < 0.01
     assert inspect.curvature_range(tent, side=inspect.Side.GREATEST) == found

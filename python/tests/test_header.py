@@ -188,6 +188,7 @@ def test_every_function_is_reached(monkeypatch):
     footpoint.Face.of_trim(trims.TrimmedSurface.whole(trims.Support(hill())))
     face.classify([0.2, 0.3]), face.closest(points), face.preimage(hill().evaluate([0.2, 0.3]))
     fair.curve(arch, 0.1), fair.surface(hill(), 0.1), inspect.curvature_range(arch), inspect.curvature_range(hill(), budget=10)
+    inspect.curvature_range_places(hill(), budget=10)
     inspect.comb(arch), inspect.curvatures(hill(), [[0.5, 0.5]]), inspect.monotone_pieces(arch), inspect.inflections(arch)
     inspect.umbilics(hill(), budget=10), inspect.hausdorff(arch, curve), inspect.border(hill(), 0, hill(), 0)
     inspect.picture(hill(), size=(8, 8))
