@@ -53,23 +53,32 @@ impl<'a, 'b> Maker<'a, 'b> {
         norm(sub(self.a.evaluate(u, v), self.b.evaluate(s, t)))
     }
 
+    /// Boxes in which the surfaces coincide.
+    fn areas(&mut self) {
+        let areas = self.search.open.iter().filter(|pair| pair.why == Open::Area);
+        self.out.overlaps.extend(areas.map(|pair| region(pair.low, pair.high)));
+    }
+
+    /// Lists boxes that were not divided further, as too many to look at, or after a stop.
+    pub fn list(&mut self) {
+        self.areas();
+        let others = self.search.open.iter().filter(|pair| pair.why != Open::Area);
+        self.out.undecided.extend(others.map(|pair| region(pair.low, pair.high)));
+    }
+
     /// What is in the groups of boxes that were not divided further.
     pub fn classify(&mut self, groups: &[Cluster], ridges: &[Ridge], watch: &Watch) {
-        for pair in self.search.open.iter().filter(|pair| pair.why == Open::Area) {
-            self.out.overlaps.push(region(pair.low, pair.high));
-        }
+        self.areas();
         let beside = unfollowed(self.search, ridges);
         for (k, group) in groups.iter().enumerate() {
-            // One is a search for a place of least gap.
-            if watch.stops(groups.len() - k) {
-                return;
-            }
-            let [area, curve, flat, budget] = group.has;
+            let [area, curve, flat, left] = group.has;
             let is_followed = !beside.iter().any(|&at| group.holds(at));
-            if area || (curve && !flat && !budget && is_followed) {
+            if area || (curve && !flat && !left && is_followed) {
                 continue;
             }
-            let seen = if budget { None } else { see(self.search, group) };
+            // One is a search for a place of least gap.
+            let looked_at = !left && !watch.stops(groups.len() - k);
+            let seen = if looked_at { see(self.search, group) } else { None };
             match seen {
                 Some(seen) if group.size <= 0.05 => {
                     if ridges.iter().any(|ridge| {
@@ -110,6 +119,15 @@ impl<'a, 'b> Maker<'a, 'b> {
         let (low, high) = self.a.bounding_box();
         let (l, h) = self.search.surfaces[0].bounding_box();
         norm(sub(h, l)) / norm(sub(high, low))
+    }
+
+    /// A collapsed edge that came near the other surface, and was not looked at.
+    pub fn unseen_tip(&mut self, (whose, side): (usize, usize)) {
+        let [a, b] = [self.a, self.b].map(Surface::domain);
+        let mut range = std::array::from_fn(|k| [a, b][k / 4][k % 4]);
+        // The other end of its parameter is this one.
+        range[4 * whose + (side ^ 1)] = range[4 * whose + side];
+        self.out.undecided.push(Region { range });
     }
 
     /// A collapsed edge that came near the other surface: a contact, if it lies on it.

@@ -16,7 +16,6 @@ use super::pair::{Verdict, judge};
 use super::pieces::{Part, Pieces};
 use super::watch::Watch;
 use crate::bounds::{Aabb, HALF_ULP, Vector, cross, dot, norm, sub};
-use crate::error::Error;
 use crate::surface::Surface;
 
 /// Halvings of a pair after which touching along a curve is looked for.
@@ -32,7 +31,7 @@ const BENDS_APART: f64 = 0.02;
 const GROUP: u64 = 256;
 
 /// Parts of a surface are at most this many: what they hold is memory.
-const MOST_PARTS: usize = 2_000_000;
+pub const MOST_PARTS: usize = 2_000_000;
 
 /// What a pair that was not divided further is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,8 +42,8 @@ pub enum Open {
     Area,
     /// Both parts are flat to the last digits, and still nothing is known.
     Flat,
-    /// The budget ran out.
-    Budget,
+    /// It was not reached: the budget ran out, or the caller said stop.
+    Left,
 }
 
 /// A pair that was not divided further: a box of u, v, s, t.
@@ -77,9 +76,11 @@ pub struct Search<'a> {
     /// B in pieces.
     pub b: Pieces,
     /// How far two positions may be off together.
-    error: f64,
+    pub error: f64,
     /// Lengths below this are rounding.
     pub floor: f64,
+    /// The caller's point tolerance; 0: none.
+    tolerance: f64,
     /// Arcs, in the order in which they were found.
     pub found: Vec<Found>,
     /// What is open.
@@ -88,11 +89,14 @@ pub struct Search<'a> {
     pub tips: Vec<(usize, usize)>,
     /// Pairs judged.
     pub judged: u64,
+    /// Whether the budget ran out.
+    pub exhausted: bool,
 }
 
 impl<'a> Search<'a> {
-    /// Prepares two surfaces of size about one around the origin; `noise`: what their poles may be off.
-    pub fn new(surfaces: [&'a Surface; 2], noise: f64) -> Self {
+    /// Prepares two surfaces of size about one around the origin; `noise`: what their poles may be off; `tolerance`: what is nearer
+    /// may count as touching.
+    pub fn new(surfaces: [&'a Surface; 2], noise: f64, tolerance: f64) -> Self {
         let (a, b) = (Pieces::new(surfaces[0]), Pieces::new(surfaces[1]));
         let floor = 64.0 * HALF_ULP + 2.0 * (noise + a.error + b.error);
         let error = a.error + b.error + noise;
@@ -102,40 +106,42 @@ impl<'a> Search<'a> {
             b,
             error,
             floor,
+            tolerance,
             found: Vec::new(),
             open: Vec::new(),
             tips: Vec::new(),
             judged: 0,
+            exhausted: false,
         }
     }
 
-    /// Judges all pairs, at most `budget`.
-    ///
-    /// # Errors
-    /// [`Error::Cancelled`] when the watch said so.
-    pub fn run(&mut self, budget: u64, watch: &Watch) -> Result<(), Error> {
+    /// Gaps up to this are none: so many times what rounding does, or the caller's tolerance.
+    pub fn touching_gap(&self, times: f64) -> f64 {
+        (times * self.floor).max(self.tolerance)
+    }
+
+    /// Judges all pairs, at most `budget`, until the watch says stop; what waits then is left open.
+    pub fn run(&mut self, budget: u64, watch: &Watch) {
         let mut waiting = self.first_pairs();
         let mut level = 0;
         while !waiting.is_empty() {
             let mut next = Vec::new();
             for (k, &pair) in waiting.iter().enumerate() {
-                if self.judged >= budget || self.a.parts.len() + self.b.parts.len() > MOST_PARTS {
+                self.exhausted =
+                    self.judged >= budget || self.a.parts.len() + self.b.parts.len() > MOST_PARTS;
+                let left = (waiting.len() - k + next.len()) as u64;
+                let is_asked = !self.exhausted && self.judged.is_multiple_of(GROUP);
+                if self.exhausted || is_asked && watch.asks(self.judged, left) {
                     for &pair in waiting[k..].iter().chain(&next) {
-                        self.leave(pair, Open::Budget);
+                        self.leave(pair, Open::Left);
                     }
-                    return Ok(());
-                }
-                if self.judged.is_multiple_of(GROUP)
-                    && watch.asks(self.judged, (waiting.len() - k + next.len()) as u64)
-                {
-                    return Err(Error::Cancelled);
+                    return;
                 }
                 self.step(pair, level, &mut next);
             }
             waiting = next;
             level += 1;
         }
-        Ok(())
     }
 
     /// Pairs of patches whose boxes meet: blocks of B's patches first.
@@ -187,7 +193,7 @@ impl<'a> Search<'a> {
             }
             return;
         }
-        let thin = self.floor;
+        let thin = self.touching_gap(1.0);
         let flat = a.bend().min(1e9) + b.bend().min(1e9) <= thin
             || is_slab(a.normal, a, b, thin)
             || is_slab(b.normal, a, b, thin);
@@ -285,7 +291,8 @@ impl<'a> Search<'a> {
         let start = self.middle(a, b);
         let reach = size(a).max(size(b));
         let touch = settle(sa, sb, start, reach)?;
-        if touch.gap.abs() > self.floor || touch.slope > 1e-7 || touch.rank() != 1 {
+        let none = self.touching_gap(1.0);
+        if touch.gap.abs() > none || touch.slope > 1e-7 || touch.rank() != 1 {
             return None;
         }
         // The same must hold a little farther along the curve, on both sides.
@@ -297,7 +304,7 @@ impl<'a> Search<'a> {
                 let there = sa.evaluate(t.at[0], t.at[1]);
                 let moved =
                     norm(sub(there, sa.evaluate(touch.at[0], touch.at[1]))) > 0.25 * by.abs();
-                moved && t.gap.abs() <= self.floor && t.rank() == 1 && t.slope <= 1e-7
+                moved && t.gap.abs() <= none && t.rank() == 1 && t.slope <= 1e-7
             })
         };
         (goes_on(1.0) && goes_on(-1.0)).then_some(Open::Curve)
@@ -329,7 +336,8 @@ impl<'a> Search<'a> {
             if apart > 2.0 * touch.gap.abs() + 8.0 * self.floor {
                 continue;
             }
-            if touch.gap.abs() > 2.0 * self.floor || touch.slope > 1e-6 || touch.rank() > 0 {
+            let none = self.touching_gap(2.0);
+            if touch.gap.abs() > none || touch.slope > 1e-6 || touch.rank() > 0 {
                 return None;
             }
             seen += 1;
