@@ -477,7 +477,14 @@ fn a_spent_budget_lists_what_is_open() {
     assert!(!section.is_complete());
     assert!(!section.stopped);
     let none = torus().section(&plane, &options, &mut || true).unwrap();
-    assert!(none.stopped && none.branches.is_empty() && !none.is_complete());
+    assert!(none.stopped && !none.is_complete());
+    // Corners of patches at which branches were not looked for are no contacts: this plane has none.
+    assert!(none.contacts.is_empty());
+    for budget in 1..200 {
+        let options = SectionOptions { budget, ..SectionOptions::default() };
+        let section = torus().section(&plane, &options, &mut || false).unwrap();
+        assert!(section.contacts.is_empty(), "budget {budget}: {:?}", section.contacts);
+    }
 }
 
 #[test]

@@ -252,9 +252,11 @@ pub unsafe extern "C" fn fpt_intersect_surface_quadrics(
         let mut poll = |done: usize| callbacks.poll(done, count);
         let threads = options.threads as usize;
         let sections = surface.sections(&list, &options.sections(), threads, &mut poll)?;
-        callbacks.report(count, count);
         let left = sections.iter().map(|section| section.undecided.len()).sum();
         let stopped = sections.iter().any(|section| section.stopped);
+        if !stopped {
+            callbacks.report(count, count);
+        }
         *out = Box::into_raw(Box::new(fpt_sections { sections }));
         undecided(stopped, left)
     })

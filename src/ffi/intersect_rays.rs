@@ -203,10 +203,10 @@ pub unsafe extern "C" fn fpt_caster_all(
         let mut poll = |done: usize| callbacks.poll(done, count);
         let threads = options.threads as usize;
         let hits = caster.all_hits(&|k| rays.get(k), count, threads, &mut poll)?;
-        callbacks.report(count, count);
         let stopped = hits.stopped;
         *out = Box::into_raw(Box::new(fpt_ray_hits { hits }));
         if !stopped {
+            callbacks.report(count, count);
             return Ok(());
         }
         let text = "cancelled by should_stop: rays that were not cast have FPT_RAY_NOT_PROVEN";

@@ -1,14 +1,12 @@
 //! Hits of a curve with a curve or a surface, from what the boxes left: crossings, contacts, overlaps.
 
+use super::hits::{CurveHit, CurveHits, DEFAULT_BUDGET, HitOptions, Nature};
 use super::pairs::{Body, Found, FoundKind, Pairs};
 use crate::bounds::{Vector, cross, dot, norm, sub};
 use crate::closest::{QueryOptions, Workspace};
 use crate::error::Error;
 use crate::index::{Frame, IndexedCurve, IndexedSurface};
 use crate::knots::Side;
-
-/// Boxes that one request may take by default.
-pub const DEFAULT_BUDGET: u64 = 1_000_000;
 
 /// Sine of the angle below which a crossing counts as tangential.
 const TANGENTIAL: f64 = 1e-5;
@@ -19,77 +17,6 @@ pub const COINCIDENT: f64 = 1.0 / 64.0;
 
 /// Share of the tolerance with which near places are searched again, so that two crossings there are two.
 const FINE: f64 = 1e-4;
-
-/// How two shapes meet.
-#[repr(u32)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Nature {
-    /// At an angle.
-    Transversal = 0,
-    /// They touch: multiplicity 2 when they stay on one side, 3 when they cross.
-    Tangential = 1,
-    /// They run together along an interval.
-    Overlap = 2,
-}
-
-/// A hit: of a curve with a curve (parameters u of the first, w of the second) or with a surface (u, v; w of the curve).
-/// The layout is frozen (C API).
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CurveHit {
-    /// First parameter of the first shape.
-    pub u: f64,
-    /// Second one; 0 on a curve.
-    pub v: f64,
-    /// Parameter of the second shape, a curve.
-    pub w: f64,
-    /// The first shape there.
-    pub point: Vector,
-    /// Distance between both there.
-    pub distance: f64,
-    /// Interval of u that holds every place within the tolerance that belongs to the hit.
-    pub u_range: [f64; 2],
-    /// The same for v.
-    pub v_range: [f64; 2],
-    /// The same for w; of an overlap: where they run together.
-    pub w_range: [f64; 2],
-    /// How they meet.
-    pub nature: Nature,
-    /// 1 at an angle; 2 or 3 where they touch; 0 along an overlap.
-    pub multiplicity: u32,
-}
-
-/// What is asked; zeros are the defaults.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct HitOptions {
-    /// Length: places farther apart do not meet. 0: 1e-7 of the greater diagonal; never less than the rounding.
-    pub tolerance: f64,
-    /// Most boxes. 0: 1,000,000.
-    pub budget: u64,
-}
-
-/// All hits, in the order of w (of the second shape).
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct CurveHits {
-    /// The hits.
-    pub hits: Vec<CurveHit>,
-    /// Boxes u0, u1, v0, v1, w0, w1 in which nothing could be decided.
-    pub undecided: Vec<[f64; 6]>,
-    /// Whether the caller said stop: what was not looked at by then is undecided.
-    pub stopped: bool,
-}
-
-impl CurveHits {
-    /// Of which nothing is known but the domains.
-    pub(super) fn unreached(domains: [f64; 6]) -> Self {
-        Self { undecided: vec![domains], stopped: true, ..Self::default() }
-    }
-
-    /// Whether nothing is missing.
-    pub fn is_complete(&self) -> bool {
-        self.undecided.is_empty()
-    }
-}
 
 impl IndexedCurve {
     /// Where this curve (u) meets another one (w): everything else of the two is proven to be farther apart than the tolerance.

@@ -285,10 +285,13 @@ impl Caster {
         reserve(&mut all.starts).map_err(|_| Error::OutOfMemory)?;
         all.hits.try_reserve_exact(total).map_err(|_| Error::OutOfMemory)?;
         all.flags.try_reserve_exact(count).map_err(|_| Error::OutOfMemory)?;
-        let mut memory = CastMemory::default();
+        let (mut memory, mut again) = (CastMemory::default(), 0usize);
         for (k, hit) in first.iter().enumerate() {
             all.starts.push(all.hits.len());
-            stopped = stopped || hit.count > 1 && k % batch::GROUP == 0 && poll(count);
+            if hit.count > 1 {
+                stopped = stopped || again.is_multiple_of(batch::GROUP) && poll(count);
+                again += 1;
+            }
             if hit.count > 1 && stopped {
                 all.flags.push(hit.flags & ray_flag::BAD_RAY | ray_flag::NOT_PROVEN);
                 all.hits.push(Hit { flags: hit.flags & !ray_flag::NOT_PROVEN, count: 1, ..*hit });

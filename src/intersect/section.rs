@@ -338,7 +338,7 @@ impl<'a> Work<'a> {
                 .collect();
             self.cluster(cluster, &inside, cells, flat, level, section, undecided);
         }
-        self.special_nodes(edges, cells, level, section);
+        self.special_nodes(edges, cells, level, section, undecided);
     }
 
     fn cluster(
@@ -448,8 +448,16 @@ impl<'a> Work<'a> {
         best
     }
 
-    /// Corners and collapsed edges without branches are contacts; nodes with more than two arms are junctions.
-    fn special_nodes(&self, edges: &Edges, cells: &[Cell], level: &Level, section: &mut Section) {
+    /// Corners and collapsed edges without branches are contacts, unless branches may end there that were not looked for; nodes with
+    /// more than two arms are junctions.
+    fn special_nodes(
+        &self,
+        edges: &Edges,
+        cells: &[Cell],
+        level: &Level,
+        section: &mut Section,
+        undecided: &[bool],
+    ) {
         let mut arms = vec![0; level.nodes.len()];
         let mut places = vec![None; level.nodes.len()];
         for arc in &level.arcs {
@@ -464,7 +472,8 @@ impl<'a> Work<'a> {
                 continue;
             }
             for (k, corner) in edges.of_patch(patch).1.into_iter().enumerate() {
-                let Some(node) = corner.filter(|&node| arms[node] == 0) else { continue };
+                let is_alone = |&node: &usize| arms[node] == 0 && !undecided[node];
+                let Some(node) = corner.filter(is_alone) else { continue };
                 if !std::mem::replace(&mut done[node], true) {
                     let at = [f64::from(u8::from(k >= 2)), f64::from(u8::from(k % 2 == 1))];
                     let at = self.place(patch, at);

@@ -2,7 +2,7 @@
 
 use super::cluster::{Cluster, see};
 use super::join::{Stop, distance_to_chord};
-use super::search::{Open, Search};
+use super::search::{Open, Search, Tip};
 use super::tangent::{Ridge, is_near, unfollowed};
 use super::watch::Watch;
 use super::{Branch, Contact, ContactKind, End, Intersection, MarchPoint, Region};
@@ -122,16 +122,16 @@ impl<'a, 'b> Maker<'a, 'b> {
     }
 
     /// A collapsed edge that came near the other surface, and was not looked at.
-    pub fn unseen_tip(&mut self, (whose, side): (usize, usize)) {
+    pub fn unseen_tip(&mut self, Tip { whose, side, inner }: Tip) {
         let [a, b] = [self.a, self.b].map(Surface::domain);
         let mut range = std::array::from_fn(|k| [a, b][k / 4][k % 4]);
-        // The other end of its parameter is this one.
-        range[4 * whose + (side ^ 1)] = range[4 * whose + side];
+        // From the edge as far as the surface was taken for a point.
+        range[4 * whose + (side ^ 1)] = inner;
         self.out.undecided.push(Region { range });
     }
 
     /// A collapsed edge that came near the other surface: a contact, if it lies on it.
-    pub fn tip(&mut self, (whose, side): (usize, usize), surfaces: [&IndexedSurface; 2]) {
+    pub fn tip(&mut self, Tip { whose, side, .. }: Tip, surfaces: [&IndexedSurface; 2]) {
         let own = surfaces[whose].surface();
         let [u0, u1, v0, v1] = own.domain();
         let at = [[u0, v0], [u1, v0], [u0, v0], [u0, v1]][side];

@@ -46,6 +46,17 @@ pub enum Open {
     Left,
 }
 
+/// A collapsed edge that comes near the other surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Tip {
+    /// A (0) or B (1).
+    pub whose: usize,
+    /// 0 to 3: u low, u high, v low, v high.
+    pub side: usize,
+    /// As far as this parameter the surface was taken for a point.
+    pub inner: f64,
+}
+
 /// A pair that was not divided further: a box of u, v, s, t.
 #[derive(Clone, Copy, Debug)]
 pub struct OpenPair {
@@ -85,8 +96,8 @@ pub struct Search<'a> {
     pub found: Vec<Found>,
     /// What is open.
     pub open: Vec<OpenPair>,
-    /// Collapsed edges that come near the other surface: whose (0, 1), and which side.
-    pub tips: Vec<(usize, usize)>,
+    /// Collapsed edges that come near the other surface.
+    pub tips: Vec<Tip>,
     /// Pairs judged.
     pub judged: u64,
     /// Whether the budget ran out.
@@ -187,11 +198,8 @@ impl<'a> Search<'a> {
             Verdict::Halve(first) => first,
         };
         let (a, b) = (&self.a.parts[i as usize], &self.b.parts[j as usize]);
-        if let Some(tip) = self.tip(a, b) {
-            if !self.tips.contains(&tip) {
-                self.tips.push(tip);
-            }
-            return;
+        if let Some((whose, side)) = self.tip(a, b) {
+            return self.keep_tip(whose, side, [i, j]);
         }
         let thin = self.touching_gap(1.0);
         let flat = a.bend().min(1e9) + b.bend().min(1e9) <= thin
@@ -199,11 +207,9 @@ impl<'a> Search<'a> {
             || is_slab(b.normal, a, b, thin);
         let narrow = |p: &Part| (0..2).any(|k| p.high[k] - p.low[k] < 1e-12);
         if flat || narrow(a) || narrow(b) {
-            for tip in
-                [a.pole.map(|side| (0, side)), b.pole.map(|side| (1, side))].into_iter().flatten()
-            {
-                if !self.tips.contains(&tip) {
-                    self.tips.push(tip);
+            for (whose, side) in [a.pole, b.pole].into_iter().enumerate() {
+                if let Some(side) = side {
+                    self.keep_tip(whose, side, [i, j]);
                 }
             }
             let (a, b) = (&self.a.parts[i as usize], &self.b.parts[j as usize]);
@@ -230,6 +236,20 @@ impl<'a> Search<'a> {
     fn tip(&self, a: &Part, b: &Part) -> Option<(usize, usize)> {
         let is_tip = |part: &Part| part.pole.filter(|_| part.aabb.diagonal() <= self.tip_size());
         is_tip(a).map(|side| (0, side)).or_else(|| is_tip(b).map(|side| (1, side)))
+    }
+
+    /// Keeps a collapsed edge, with all that is as good as a point there.
+    fn keep_tip(&mut self, whose: usize, side: usize, [i, j]: [u32; 2]) {
+        let (pieces, k) = if whose == 0 { (&self.a, i) } else { (&self.b, j) };
+        let part = &pieces.parts[k as usize];
+        let [low, high] = [part.low, part.high].map(|at| pieces.global(part.patch, at)[side / 2]);
+        let inner = if side % 2 == 0 { high } else { low };
+        let outer = if side % 2 == 0 { low } else { high };
+        match self.tips.iter_mut().find(|tip| (tip.whose, tip.side) == (whose, side)) {
+            Some(tip) if (tip.inner - outer).abs() < (inner - outer).abs() => tip.inner = inner,
+            Some(_) => {}
+            None => self.tips.push(Tip { whose, side, inner }),
+        }
     }
 
     /// Keeps the part of an arc that is inside the patches; false when that is not clear.
