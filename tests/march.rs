@@ -428,9 +428,34 @@ fn what_is_nearer_than_the_tolerance_touches_and_points_hold_it() {
     let near = ask(&ball, &above, 1e-7);
     assert_eq!((near.branches.len(), near.contacts.len()), (0, 1), "{:?}", near.contacts);
     assert!(!near.is_proven && (near.contacts[0].gap - 1e-9).abs() < 1e-12);
-    // A loop higher than the tolerance is a loop still.
-    let cut = ask(&ball, &level(1.0 - 1e-4), 1e-7);
-    assert!(cut.is_proven && cut.branches.len() == 1 && cut.branches[0].is_closed());
+    // The same where the place is no pole of the sphere, and from inside: one loop to the arithmetic, a contact to the tolerance.
+    let turned = moved(&ball, &z_to_x([0.0; 3]));
+    for (height, loops) in [(1.0 + 1e-9, 0), (1.0 - 1e-9, 1)] {
+        let apart = ask(&turned, &level(height), 0.0);
+        assert!(apart.is_proven && apart.branches.len() == loops, "{height}: {:?}", apart.branches);
+        let near = ask(&turned, &level(height), 1e-7);
+        assert!(near.branches.is_empty() && !near.is_proven, "{height}");
+        let [contact] = &near.contacts[..] else { panic!("{:?}", near.contacts) };
+        assert_eq!(contact.kind, ContactKind::Touching);
+        assert!((contact.gap - 1e-9).abs() < 1e-12 && near.undecided.is_empty(), "{height}");
+    }
+    let far = ask(&turned, &level(1.0 + 1e-6), 1e-7);
+    assert!(far.is_proven && far.contacts.is_empty());
+    // What crosses at an angle, or is deeper than the tolerance, is what it is without one.
+    let crossing = [
+        (ball.clone(), level(1.0 - 1e-4)),
+        (turned.clone(), level(1.0 - 1e-4)),
+        (torus(2.0, 0.5), level(0.1)),
+        (torus(2.0, 0.5), cylinder(2.0, 1.0)),
+        (bumps(4, |p| p), lid(4, 4.0 / 9.0 - 1e-4, |p| p)),
+        (bumps(4, |p| p), lid(4, 4.0 / 9.0 + 1e-4, |p| p)),
+    ];
+    for (number, (a, b)) in crossing.iter().enumerate() {
+        let (without, with) = (ask(a, b, 0.0), ask(a, b, 1e-7));
+        assert!(without.is_proven && with.is_proven, "{number}: {:?}", with.undecided);
+        assert_eq!(without.branches.len(), with.branches.len(), "{number}");
+        println!("{number}: {} pairs, {} with a tolerance", without.judged, with.judged);
+    }
     // Planes 1e-9 apart are none to the arithmetic, one to the tolerance.
     let (a, b) = (level(0.2), level(0.2 + 1e-9));
     let apart = ask(&a, &b, 0.0);

@@ -144,7 +144,7 @@ impl<'a, 'b> Maker<'a, 'b> {
             None,
         );
         let size = self.search.tip_size() / self.scale();
-        if foot.lower_bound > 2.0 * size {
+        if foot.lower_bound > (2.0 * size).max(self.search.touching_gap(0.0) / self.scale()) {
             return;
         }
         let other = [foot.u, foot.v];

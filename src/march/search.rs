@@ -12,7 +12,7 @@
 
 use super::arc::{Arc, Clip};
 use super::contact::{into_domain, look, settle};
-use super::pair::{Verdict, judge};
+use super::pair::{Verdict, judge, misses};
 use super::pieces::{Part, Pieces};
 use super::watch::Watch;
 use crate::bounds::{Aabb, HALF_ULP, Vector, cross, dot, norm, sub};
@@ -155,11 +155,22 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// Whether two parts that do not meet may be nearer than the caller's tolerance where they are parallel.
+    fn may_touch(&self, a: &Part, b: &Part) -> bool {
+        if self.tolerance == 0.0 || misses(a, b, self.error + self.tolerance) {
+            return false;
+        }
+        // Planes that part by less than the tolerance over these parts are parallel here.
+        let parting = self.tolerance / size(a).min(size(b)).max(1e-300);
+        norm(cross(a.normal, b.normal)) <= a.tilt() + b.tilt() + parting
+    }
+
     /// Pairs of patches whose boxes meet: blocks of B's patches first.
     fn first_pairs(&self) -> Vec<(u32, u32)> {
         const BLOCK: usize = 32;
+        let near = self.touching_gap(1.0);
         let meets = |a: &Aabb, b: &Aabb| {
-            (0..3).all(|k| a.low[k] <= b.high[k] + self.floor && b.low[k] <= a.high[k] + self.floor)
+            (0..3).all(|k| a.low[k] <= b.high[k] + near && b.low[k] <= a.high[k] + near)
         };
         let of = |pieces: &Pieces, k: usize| pieces.parts[pieces.patches[k].root as usize].aabb;
         let blocks: Vec<Aabb> = (0..self.b.patches.len().div_ceil(BLOCK))
@@ -190,6 +201,7 @@ impl<'a> Search<'a> {
         let (a, b) = (&self.a.parts[i as usize], &self.b.parts[j as usize]);
         let by_size = size(a) >= size(b);
         let halve_first = match judge([&self.a, &self.b], [a, b], self.error) {
+            Verdict::Empty if self.may_touch(a, b) => by_size,
             Verdict::Empty => return,
             Verdict::Arc(arc) => match self.keep(*arc, [i, j]) {
                 true => return,
