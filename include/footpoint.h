@@ -2601,7 +2601,8 @@ typedef struct fpt_intersect_surfaces_options {
      */
     int (*should_stop)(void *user);
     /**
-     * Told on the calling thread now and then: pairs judged, and pairs judged or waiting. NULL: nobody.
+     * Told on the calling thread now and then: pairs judged, and pairs judged or waiting; by fpt_surface_intersection_curves points of
+     * the branch. NULL: nobody.
      */
     void (*progress)(void *user, size_t done, size_t total);
     /**

@@ -497,6 +497,7 @@ fn a_stop_within_a_section_gives_the_branches_so_far_and_lists_the_rest() {
         false
     };
     let whole = shape.section(&plane, &options, &mut count).unwrap();
+    assert!(whole.contacts.is_empty() && whole.is_complete());
     let mut partial = 0;
     for n in 1..=asked {
         let mut questions = 0;
@@ -507,6 +508,7 @@ fn a_stop_within_a_section_gives_the_branches_so_far_and_lists_the_rest() {
         let part = shape.section(&plane, &options, &mut stop).unwrap();
         assert!(part.stopped && questions == n);
         partial += usize::from(!part.branches.is_empty() && !part.is_complete());
+        assert!(part.contacts.is_empty(), "question {n} of {asked}: {:?}", part.contacts);
         for point in whole.branches.iter().flat_map(|branch| &branch.points) {
             let near = |w: &[footpoint::intersect::BranchPoint]| {
                 let (to, along) = (sub(point.point, w[0].point), sub(w[1].point, w[0].point));

@@ -84,7 +84,8 @@ pub struct fpt_intersect_surfaces_options {
     /// Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED, and an intersection with what was found by
     /// then. NULL: never.
     pub should_stop: Option<unsafe extern "C" fn(user: *mut c_void) -> c_int>,
-    /// Told on the calling thread now and then: pairs judged, and pairs judged or waiting. NULL: nobody.
+    /// Told on the calling thread now and then: pairs judged, and pairs judged or waiting; by fpt_surface_intersection_curves points of
+    /// the branch. NULL: nobody.
     pub progress: Option<unsafe extern "C" fn(user: *mut c_void, done: usize, total: usize)>,
     /// Handed to the callbacks as it is.
     pub user: *mut c_void,

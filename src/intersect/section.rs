@@ -250,7 +250,7 @@ impl<'a> Work<'a> {
         cells.try_reserve_exact(index.patches.len()).map_err(|_| Error::OutOfMemory)?;
         let mut flat = NONE * self.tolerance * index.frame.scale;
         for (k, patch) in index.patches.iter().enumerate() {
-            if k % 256 == 255 && poll() {
+            if k.is_multiple_of(256) && poll() {
                 return Ok(None);
             }
             let form = Form::new(self.quadric, &index.frame, patch.center);

@@ -255,8 +255,8 @@ impl<'a> Search<'a> {
         let (pieces, k) = if whose == 0 { (&self.a, i) } else { (&self.b, j) };
         let part = &pieces.parts[k as usize];
         let [low, high] = [part.low, part.high].map(|at| pieces.global(part.patch, at)[side / 2]);
-        let inner = if side % 2 == 0 { high } else { low };
-        let outer = if side % 2 == 0 { low } else { high };
+        // Low sides are even.
+        let (outer, inner) = if side & 1 == 0 { (low, high) } else { (high, low) };
         match self.tips.iter_mut().find(|tip| (tip.whose, tip.side) == (whose, side)) {
             Some(tip) if (tip.inner - outer).abs() < (inner - outer).abs() => tip.inner = inner,
             Some(_) => {}
