@@ -409,6 +409,16 @@ fn a_stop_gives_what_was_found_and_lists_the_rest() {
             let some = !part.branches.is_empty();
             (partial, given) = (partial + usize::from(!part.is_proven), given + usize::from(some));
         }
+        // A budget that runs out at any pair is answered in the same way.
+        for k in 1..=24 {
+            let budget = (whole.judged * k / 25).max(1);
+            let options = MarchOptions { budget, ..options };
+            let part = intersect(&a, &b, &options, &mut |_, _| false).unwrap();
+            let text = format!("pair {number}, budget {budget} of {}", whole.judged);
+            assert!(part.exhausted && !part.stopped && part.judged == budget, "{text}");
+            assert!(!part.is_proven && !part.undecided.is_empty(), "{text}");
+            check_part(&whole, &part, &text);
+        }
     }
     assert!(partial > 20 && given > 20, "{partial} parts, {given} with branches");
 }
