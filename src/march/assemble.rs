@@ -2,7 +2,7 @@
 
 use super::cluster::{Cluster, see};
 use super::join::{Stop, distance_to_chord};
-use super::search::{Open, Search, Tip};
+use super::search::{Open, OpenPair, Search, Tip};
 use super::tangent::{Ridge, is_near, unfollowed};
 use super::watch::Watch;
 use super::{Branch, Contact, ContactKind, End, Intersection, MarchPoint, Region};
@@ -66,6 +66,16 @@ impl<'a, 'b> Maker<'a, 'b> {
         self.out.undecided.extend(others.map(|pair| region(pair.low, pair.high)));
     }
 
+    /// Lists the boxes of a group that were not reached.
+    fn left_in(&mut self, group: &Cluster) {
+        let is_in = |pair: &&OpenPair| {
+            let inside = |q| group.low[q] <= pair.low[q] && pair.high[q] <= group.high[q];
+            pair.why == Open::Left && (0..4).all(inside)
+        };
+        let left = self.search.open.iter().filter(is_in);
+        self.out.undecided.extend(left.map(|pair| region(pair.low, pair.high)));
+    }
+
     /// What is in the groups of boxes that were not divided further.
     pub fn classify(&mut self, groups: &[Cluster], ridges: &[Ridge], watch: &Watch) {
         self.areas();
@@ -73,6 +83,10 @@ impl<'a, 'b> Maker<'a, 'b> {
         for (k, group) in groups.iter().enumerate() {
             let [area, curve, flat, left] = group.has;
             let is_followed = !beside.iter().any(|&at| group.holds(at));
+            if area && left {
+                // Beside a coincidence everything is its rim, but not what was never looked at.
+                self.left_in(group);
+            }
             if area || (curve && !flat && !left && is_followed) {
                 continue;
             }
