@@ -465,6 +465,18 @@ fn what_is_nearer_than_the_tolerance_touches_and_points_hold_it() {
         assert!(without.is_proven && with.is_proven, "{number}: {:?}", with.undecided);
         assert_eq!(without.branches.len(), with.branches.len(), "{number}");
         println!("{number}: {} pairs, {} with a tolerance", without.judged, with.judged);
+        // One that is as great as what they are: not told apart, and not said to be.
+        for tolerance in [1e-5, 1e-3, 1e-2] {
+            let with = ask(a, b, tolerance);
+            let same = with.branches.len() == without.branches.len();
+            println!(
+                "{number}: {tolerance:e}: {} branches, {}",
+                with.branches.len(),
+                with.is_proven
+            );
+            let listed = with.contacts.len() + with.undecided.len() + with.overlaps.len();
+            assert!(if with.is_proven { same } else { listed > 0 }, "{number}: {tolerance:e}");
+        }
     }
     // Planes 1e-9 apart are none to the arithmetic, one to the tolerance.
     let (a, b) = (level(0.2), level(0.2 + 1e-9));

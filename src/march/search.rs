@@ -157,7 +157,12 @@ impl<'a> Search<'a> {
 
     /// Whether two parts that do not meet may be nearer than the caller's tolerance where they are parallel.
     fn may_touch(&self, a: &Part, b: &Part) -> bool {
-        if self.tolerance == 0.0 || misses(a, b, self.error + self.tolerance) {
+        self.may_be_parallel(a, b) && !misses(a, b, self.error + self.tolerance)
+    }
+
+    /// Whether two parts may be parallel somewhere, as far as the caller's tolerance counts; false where there is none.
+    fn may_be_parallel(&self, a: &Part, b: &Part) -> bool {
+        if self.tolerance == 0.0 {
             return false;
         }
         // Planes that part by less than the tolerance over these parts are parallel here.
@@ -213,7 +218,8 @@ impl<'a> Search<'a> {
         if let Some((whose, side)) = self.tip(a, b) {
             return self.keep_tip(whose, side, [i, j]);
         }
-        let thin = self.touching_gap(1.0);
+        // What crosses at an angle is told apart as far as the arithmetic can.
+        let thin = if self.may_be_parallel(a, b) { self.touching_gap(1.0) } else { self.floor };
         let flat = a.bend().min(1e9) + b.bend().min(1e9) <= thin
             || is_slab(a.normal, a, b, thin)
             || is_slab(b.normal, a, b, thin);
