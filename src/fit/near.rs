@@ -8,13 +8,16 @@
 //! At its foot a point's distance is that from the shape, not from a place that the parametrisation chose: fewer poles do. On surfaces a
 //! step of Gauss and Newton towards the foot is enough of a correction, since the next fit moves the feet anyway.
 //!
+//! While knots are missing, surfaces are fitted to some of the points, drawn by lot, as many as their poles need; all points come in for
+//! the last rounds.
+//!
 //! What is proven ([`super::certificate`]): `worst` is not exceeded by any data point, and some data point is at least `at_least` away.
 //! Nothing is said between the data points.
 //!
 //! Reference: Hoschek, *Intrinsic parametrization for approximation*, Computer Aided Geometric Design 5, 1988.
 
 use super::adaptive::cuts;
-use super::certificate::{Certificate, Poll, approached, certify, farthest, feet, size};
+use super::certificate::{Certificate, Poll, certify, farthest, feet, nearer, size};
 use super::parameters::{check_parameters, check_points};
 use super::scattered::Design;
 use super::{Adaptive, Ends, fitted};
@@ -274,39 +277,37 @@ pub fn surface_near(
     });
     let limit = options.max_poles.min(points.len());
     let mut kept: Option<(Surface, Vec<[f64; 2]>, f64)> = None;
+    let mut takes_all = false;
     loop {
-        let (mut surface, mut missed) = surface_of(points, &at, &values, options.degrees)?;
-        for correction in 1..=options.corrections {
-            if worst(&missed) <= options.tolerance {
-                break;
+        let poles: usize = (0..2).map(|k| values[k].len() - options.degrees[k] - 1).product();
+        let some = if takes_all { None } else { drawn(points.len(), PER_POLE * poles) };
+        takes_all = some.is_none();
+        let (surface, missed, more) = match some {
+            Some(list) => {
+                let points: Vec<Vector> = list.iter().map(|&i| points[i]).collect();
+                let mut places: Vec<[f64; 2]> = list.iter().map(|&i| at[i]).collect();
+                let (surface, missed) = corrected(&points, &mut places, &values, options, poll)?;
+                let more = new_knots(&surface, &places, &missed, options, limit);
+                list.iter().zip(&places).for_each(|(&i, place)| at[i] = *place);
+                (surface, missed, more)
             }
-            let ask = |i: usize, _: &mut Workspace| approached(&surface, points[i], at[i], 1);
-            let found = feet(points.len(), options.threads, &ask, poll)?;
-            for (i, foot) in found.iter().enumerate() {
-                (at[i], missed[i]) = ([foot.u, foot.v], foot.distance);
+            None => {
+                let (surface, missed) = corrected(points, &mut at, &values, options, poll)?;
+                let more = new_knots(&surface, &at, &missed, options, limit);
+                (surface, missed, more)
             }
-            let reached = worst(&missed);
-            if correction == options.corrections || reached <= options.tolerance {
-                break;
-            }
-            let (again, now) = surface_of(points, &at, &values, options.degrees)?;
-            if worst(&now) >= reached {
-                break;
-            }
-            (surface, missed) = (again, now);
-        }
-        let error = worst(&missed);
-        let done = error <= options.tolerance;
-        let more = if done {
-            [Vec::new(), Vec::new()]
-        } else {
-            new_knots(&surface, &at, &missed, options, limit)
         };
-        if kept.as_ref().is_none_or(|kept| error < kept.2) {
-            kept = Some((surface, at.clone(), error));
-        }
-        if more.iter().all(Vec::is_empty) {
-            break;
+        let ends = more.iter().all(Vec::is_empty);
+        if !takes_all {
+            takes_all = ends;
+        } else {
+            let error = worst(&missed);
+            if kept.as_ref().is_none_or(|kept| error < kept.2) {
+                kept = Some((surface, at.clone(), error));
+            }
+            if ends {
+                break;
+            }
         }
         for (values, more) in values.iter_mut().zip(more) {
             values.extend(more);
@@ -317,6 +318,62 @@ pub fn surface_near(
     let shape = IndexedSurface::new(surface);
     let (parameters, certificate) = certify(&shape, points, Some(&at), options.threads, poll)?;
     Ok(Near { shape: shape.surface().clone(), parameters, certificate })
+}
+
+/// Points for each pole that tell, while knots are still missing, where. Few enough to be quick, enough for a cell to be seen: the
+/// worst of two dozen points of a cell is seldom far below the worst of all.
+const PER_POLE: usize = 24;
+
+/// About `wanted` of `count` numbers, in order, as if drawn by lot, the same at every call, more of them when more are wanted; none
+/// when that is hardly less work than all. Not every n-th: points often come in rows.
+fn drawn(count: usize, wanted: usize) -> Option<Vec<usize>> {
+    if wanted >= count / 2 {
+        return None;
+    }
+    let share = (wanted as f64 / count as f64 * u64::MAX as f64) as u64;
+    // The finaliser of splitmix64 (Steele, Lea, Flood, 2014).
+    let lot = |i: &usize| {
+        let x = (*i as u64).wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        x ^ (x >> 31)
+    };
+    Some((0..count).filter(|i| lot(i) < share).collect())
+}
+
+/// The surface of least squares for these knots, the parameters corrected on the way, and the distances at them.
+fn corrected(
+    points: &[Vector],
+    at: &mut [[f64; 2]],
+    values: &[Vec<f64>; 2],
+    options: &NearOptions,
+    poll: Poll,
+) -> Result<(Surface, Vec<f64>), Error> {
+    let (mut surface, mut missed) = surface_of(points, at, values, options.degrees)?;
+    for correction in 1..=options.corrections {
+        if worst(&missed) <= options.tolerance {
+            break;
+        }
+        let before = &*at;
+        let ask = |i: usize, _: &mut Workspace| {
+            let ([u, v], distance) = nearer(&surface, points[i], before[i], 1);
+            FootPoint { u, v, distance, ..FootPoint::unreached() }
+        };
+        let found = feet(points.len(), options.threads, &ask, poll)?;
+        for (i, foot) in found.iter().enumerate() {
+            (at[i], missed[i]) = ([foot.u, foot.v], foot.distance);
+        }
+        let reached = worst(&missed);
+        if correction == options.corrections || reached <= options.tolerance {
+            break;
+        }
+        let (again, now) = surface_of(points, at, values, options.degrees)?;
+        if worst(&now) >= reached {
+            break;
+        }
+        (surface, missed) = (again, now);
+    }
+    Ok((surface, missed))
 }
 
 /// The surface of least squares at parameters, and the distances there.
@@ -332,15 +389,13 @@ fn surface_of(
     };
     let design = Design::new([knots(0)?, knots(1)?], at)?;
     let center = points[0];
-    let poles = design.solve(points, center)?;
+    let (poles, missed) = design.solve(points, center)?;
     let list: Vec<Vector> =
         poles.iter().map(|p| std::array::from_fn(|x| p[x] + center[x])).collect();
     let counts = [0, 1].map(|k| values[k].len() - degrees[k] - 1);
     let surface = Surface::new(
         &values[0], &values[1], degrees[0], degrees[1], &list, counts[0], counts[1], None,
     )?;
-    let missed = points.iter().zip(at).map(|(p, t)| norm(surface.vector_from(*p, t[0], t[1])));
-    let missed = missed.collect();
     Ok((surface, missed))
 }
 

@@ -12,7 +12,7 @@
 
 use super::triangle::zeros;
 use crate::basis;
-use crate::bounds::{Vector, sub};
+use crate::bounds::{Vector, norm, sub};
 use crate::curve::insertion::{collect, filled};
 use crate::error::Error;
 use crate::knots::{Knots, MAX_DEGREE};
@@ -143,8 +143,12 @@ impl Design {
         Ok(matrix)
     }
 
-    /// The poles (v runs fastest) nearest to `points`, relative to `center`.
-    pub fn solve(&self, points: &[Vector], center: Vector) -> Result<Vec<Vector>, Error> {
+    /// The poles (v runs fastest) nearest to `points`, relative to `center`, and how far the points are from their places.
+    pub fn solve(
+        &self,
+        points: &[Vector],
+        center: Vector,
+    ) -> Result<(Vec<Vector>, Vec<f64>), Error> {
         let [count_u, count_v] = self.counts();
         let count = count_u * count_v;
         let factor = self.normal()?.factored().ok_or_else(|| {
@@ -173,7 +177,9 @@ impl Design {
             let [i, j] = [k / count_v, k % count_v];
             unknowns[i * self.strides[0] + j * self.strides[1]]
         };
-        collect(count, (0..count).map(pole))
+        let away = self.points(&unknowns).zip(points);
+        let away = away.map(|(at, point)| norm(sub(sub(*point, center), at)));
+        Ok((collect(count, (0..count).map(pole))?, collect(points.len(), away)?))
     }
 }
 
