@@ -57,7 +57,7 @@ endforeach()
 
 # footpoint_cargo(<directory> <features>): a rule that leaves the shared library, its links and the static library in
 # <build>/<directory>. Each set of features has a cargo directory of its own, because cargo writes all of them under
-# one file name.
+# one file name. What follows the two are settings of cargo, for a library that is not shipped.
 function(footpoint_cargo directory features)
   set(out ${PROJECT_BINARY_DIR}/${directory})
   set(built ${PROJECT_BINARY_DIR}/cargo-${directory}/release)
@@ -79,7 +79,7 @@ function(footpoint_cargo directory features)
     OUTPUT ${out}/${FOOTPOINT_SHARED} ${files}
     BYPRODUCTS ${links}
     COMMAND ${FOOTPOINT_CARGO} rustc --release --locked ${more} --lib --crate-type cdylib,staticlib
-            --features "${features}" --target-dir ${PROJECT_BINARY_DIR}/cargo-${directory}
+            --features "${features}" --target-dir ${PROJECT_BINARY_DIR}/cargo-${directory} ${ARGN}
     COMMAND ${CMAKE_COMMAND} -E make_directory ${out}
     COMMAND ${CMAKE_COMMAND} -E copy ${built}/${footpoint_built_shared} ${out}/${FOOTPOINT_SHARED}
     ${commands}

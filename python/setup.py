@@ -23,13 +23,14 @@ LIBRARY = {"win32": "footpoint.dll", "darwin": "libfootpoint.dylib"}.get(sys.pla
 
 
 def cargo() -> Path:
-    """The library, built. Named as the only crate type: with others beside it cargo leaves link-time optimisation out."""
+    """The library, built with the command of cmake/cargo.cmake, so that one directory of cargo serves both. The crate types are
+    named because cargo leaves link-time optimisation out when there is an rlib among them."""
     command = os.environ.get("CARGO", "cargo")
     if shutil.which(command) is None:
         raise SystemExit("cargo is needed to build footpoint: install Rust 1.89 or newer, or let FOOTPOINT_PREBUILT name a built library")
     target = Path(os.environ.get("CARGO_TARGET_DIR", CRATE / "target")).resolve()
-    subprocess.run([command, "rustc", "--release", "--locked", "--lib", "--crate-type", "cdylib", "--target-dir", str(target)],
-                   cwd=CRATE, check=True)
+    subprocess.run([command, "rustc", "--release", "--locked", "--lib", "--crate-type", "cdylib,staticlib", "--features", "",
+                    "--target-dir", str(target)], cwd=CRATE, check=True)
     return target / "release" / LIBRARY
 
 

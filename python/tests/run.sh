@@ -8,7 +8,8 @@ command -v python3 >/dev/null 2>&1 || left_out "Python tests: python3 is not ins
 python3 -m venv --clear "$env" >/dev/null 2>&1 || left_out "Python tests: python3 -m venv does not work (apt-get install python3-venv)"
 pip="$env/bin/python -m pip --disable-pip-version-check -q"
 $pip install numpy pytest tqdm "matplotlib>=3.5" setuptools wheel || left_out "Python tests: pip cannot install numpy and pytest"
-$pip install --no-build-isolation --no-deps "$here/.."
+# The directory of CMake's own call of cargo: what it has built is not built again.
+CARGO_TARGET_DIR="$1/cargo-lib" $pip install --no-build-isolation --no-deps "$here/.."
 for name in geomdl splinepy cadquery-ocp; do
   $pip install "$name" >/dev/null 2>&1 || echo "left out: the tests of its converter, pip cannot install $name"
 done

@@ -16,7 +16,7 @@ fi
 python="$1/python/bin/python"
 [ -x "$python" ] || python=python3
 rm -rf "$out/package" "$out/home"
-"$python" -m pip --disable-pip-version-check -q install --no-deps --target "$out/package" "$here/../../../python" ||
+CARGO_TARGET_DIR="$1/cargo-lib" "$python" -m pip --disable-pip-version-check -q install --no-deps --target "$out/package" "$here/../../../python" ||
   left_out "FreeCAD tests: pip cannot build the Python package"
 mkdir -p "$out/home"
 export HOME="$out/home" PYTHONDONTWRITEBYTECODE=1
