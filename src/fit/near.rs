@@ -25,7 +25,7 @@ use crate::analytic::linear::{add_square, any_frame, least_direction};
 use crate::bounds::{Vector, dot, norm, sub};
 use crate::closest::{FootPoint, QueryOptions, Scope, Workspace};
 use crate::curve::Curve;
-use crate::curve::insertion::spare;
+use crate::curve::insertion::{collect, filled, spare};
 use crate::error::Error;
 use crate::index::{IndexedCurve, IndexedSurface};
 use crate::knots::{Knots, MAX_DEGREE};
@@ -278,25 +278,32 @@ pub fn surface_near(
     let limit = options.max_poles.min(points.len());
     let mut kept: Option<(Surface, Vec<[f64; 2]>, f64)> = None;
     let mut takes_all = false;
+    let mut newcomers = filled(points.len(), true)?;
+    let mut last: Option<Surface> = None;
     loop {
         let poles: usize = (0..2).map(|k| values[k].len() - options.degrees[k] - 1).product();
         let some = if takes_all { None } else { drawn(points.len(), PER_POLE * poles) };
         takes_all = some.is_none();
-        let (surface, missed, more) = match some {
-            Some(list) => {
-                let points: Vec<Vector> = list.iter().map(|&i| points[i]).collect();
-                let mut places: Vec<[f64; 2]> = list.iter().map(|&i| at[i]).collect();
-                let (surface, missed) = corrected(&points, &mut places, &values, options, poll)?;
-                let more = new_knots(&surface, &places, &missed, options, limit);
-                list.iter().zip(&places).for_each(|(&i, place)| at[i] = *place);
-                (surface, missed, more)
-            }
-            None => {
-                let (surface, missed) = corrected(points, &mut at, &values, options, poll)?;
-                let more = new_knots(&surface, &at, &missed, options, limit);
-                (surface, missed, more)
-            }
+        let list = match some {
+            Some(list) => list,
+            None => collect(points.len(), 0..points.len())?,
         };
+        if let Some(last) = &last {
+            let new: Vec<usize> = list.iter().copied().filter(|&i| newcomers[i]).collect();
+            let ask = |k: usize, _: &mut Workspace| {
+                let ([u, v], distance) = nearer(last, points[new[k]], at[new[k]], STEPS);
+                FootPoint { u, v, distance, ..FootPoint::unreached() }
+            };
+            let found = feet(new.len(), options.threads, &ask, poll)?;
+            new.iter().zip(found).for_each(|(&i, foot)| at[i] = [foot.u, foot.v]);
+        }
+        list.iter().for_each(|&i| newcomers[i] = false);
+        let some = collect(list.len(), list.iter().map(|&i| points[i]))?;
+        let mut places = collect(list.len(), list.iter().map(|&i| at[i]))?;
+        let (surface, missed) = corrected(&some, &mut places, &values, options, poll)?;
+        let more = new_knots(&surface, &places, &missed, options, limit);
+        list.iter().zip(&places).for_each(|(&i, place)| at[i] = *place);
+        last = Some(surface.clone());
         let ends = more.iter().all(Vec::is_empty);
         if !takes_all {
             takes_all = ends;
@@ -323,6 +330,9 @@ pub fn surface_near(
 /// Points for each pole that tell, while knots are still missing, where. Few enough to be quick, enough for a cell to be seen: the
 /// worst of two dozen points of a cell is seldom far below the worst of all.
 const PER_POLE: usize = 24;
+
+/// Steps of a point that comes in late towards its foot on the last surface: its parameters are not those at which the others are by now.
+const STEPS: usize = 3;
 
 /// About `wanted` of `count` numbers, in order, as if drawn by lot, the same at every call, more of them when more are wanted; none
 /// when that is hardly less work than all. Not every n-th: points often come in rows.
