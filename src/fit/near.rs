@@ -8,8 +8,8 @@
 //! At its foot a point's distance is that from the shape, not from a place that the parametrisation chose: fewer poles do. On surfaces a
 //! step of Gauss and Newton towards the foot is enough of a correction, since the next fit moves the feet anyway.
 //!
-//! While knots are missing, surfaces are fitted to some of the points, drawn by lot, as many as their poles need; all points come in for
-//! the last rounds.
+//! While knots are missing, surfaces are fitted to some of the points, drawn evenly, as many as their poles need, at the parameters that were
+//! given; all points come in for the last rounds, and parameters are corrected once the surface is near.
 //!
 //! What is proven ([`super::certificate`]): `worst` is not exceeded by any data point, and some data point is at least `at_least` away.
 //! Nothing is said between the data points.
@@ -19,13 +19,14 @@
 use super::adaptive::cuts;
 use super::certificate::{Certificate, Poll, certify, farthest, feet, nearer, size};
 use super::parameters::{check_parameters, check_points};
+use super::sample::{drawn, ordered};
 use super::scattered::Design;
 use super::{Adaptive, Ends, fitted};
 use crate::analytic::linear::{add_square, any_frame, least_direction};
 use crate::bounds::{Vector, dot, norm, sub};
 use crate::closest::{FootPoint, QueryOptions, Scope, Workspace};
 use crate::curve::Curve;
-use crate::curve::insertion::{collect, filled, spare};
+use crate::curve::insertion::{collect, copy_of, spare};
 use crate::error::Error;
 use crate::index::{IndexedCurve, IndexedSurface};
 use crate::knots::{Knots, MAX_DEGREE};
@@ -41,7 +42,8 @@ pub struct NearOptions {
     pub tolerance: f64,
     /// No more poles than that; 10,000 by default.
     pub max_poles: usize,
-    /// Corrections of all parameters for each set of knots; 3 by default, 0 for none.
+    /// Corrections of all parameters for each set of knots, of surfaces once no point is farther away than ten tolerances; 3 by
+    /// default, 0 for none.
     pub corrections: usize,
     /// Threads; 0 means all cores.
     pub threads: usize,
@@ -268,7 +270,10 @@ pub fn surface_near(
     if let Some(i) = parameters.iter().position(|at| at.iter().any(|x| !x.is_finite())) {
         return refuse(format!("parameters: parameter {i} is not finite"));
     }
-    let mut at = parameters.to_vec();
+    let order = ordered(parameters)?;
+    let given = points;
+    let points = &collect(order.len(), order.iter().map(|&i| given[i]))?[..];
+    let mut at = collect(order.len(), order.iter().map(|&i| parameters[i]))?;
     let mut values = [0, 1].map(|k| {
         let low = at.iter().fold(f64::INFINITY, |m, x| m.min(x[k]));
         let high = at.iter().fold(f64::NEG_INFINITY, |m, x| m.max(x[k]));
@@ -278,101 +283,97 @@ pub fn surface_near(
     let limit = options.max_poles.min(points.len());
     let mut kept: Option<(Surface, Vec<[f64; 2]>, f64)> = None;
     let mut takes_all = false;
-    let mut newcomers = filled(points.len(), true)?;
-    let mut last: Option<Surface> = None;
     loop {
         let poles: usize = (0..2).map(|k| values[k].len() - options.degrees[k] - 1).product();
         let some = if takes_all { None } else { drawn(points.len(), PER_POLE * poles) };
         takes_all = some.is_none();
-        let list = match some {
-            Some(list) => list,
-            None => collect(points.len(), 0..points.len())?,
-        };
-        if let Some(last) = &last {
-            let new: Vec<usize> = list.iter().copied().filter(|&i| newcomers[i]).collect();
-            let ask = |k: usize, _: &mut Workspace| {
-                let ([u, v], distance) = nearer(last, points[new[k]], at[new[k]], STEPS);
-                FootPoint { u, v, distance, ..FootPoint::unreached() }
-            };
-            let found = feet(new.len(), options.threads, &ask, poll)?;
-            new.iter().zip(found).for_each(|(&i, foot)| at[i] = [foot.u, foot.v]);
-        }
-        list.iter().for_each(|&i| newcomers[i] = false);
-        let some = collect(list.len(), list.iter().map(|&i| points[i]))?;
-        let mut places = collect(list.len(), list.iter().map(|&i| at[i]))?;
-        let (surface, missed) = corrected(&some, &mut places, &values, options, poll)?;
-        let more = new_knots(&surface, &places, &missed, options, limit);
-        list.iter().zip(&places).for_each(|(&i, place)| at[i] = *place);
-        last = Some(surface.clone());
-        let ends = more.iter().all(Vec::is_empty);
-        if !takes_all {
-            takes_all = ends;
-        } else {
-            let error = worst(&missed);
-            if kept.as_ref().is_none_or(|kept| error < kept.2) {
-                kept = Some((surface, at.clone(), error));
+        let more = match some {
+            Some(some) => {
+                let list = collect(0, some)?;
+                let points = collect(list.len(), list.iter().map(|&i| points[i]))?;
+                let at = collect(list.len(), list.iter().map(|&i| at[i]))?;
+                let (surface, _) = surface_of(&points, &at, &values, options.degrees)?;
+                let (_, missed) = stepped(&surface, &points, &at, options.threads, poll)?;
+                new_knots(&surface, &at, &missed, options, limit)
             }
-            if ends {
+            None => {
+                let (surface, missed, more) =
+                    corrected(points, &mut at, &values, options, limit, poll)?;
+                let error = worst(&missed);
+                if kept.as_ref().is_none_or(|kept| error < kept.2) {
+                    kept = Some((surface, copy_of(&at)?, error));
+                }
+                more
+            }
+        };
+        if more.iter().all(Vec::is_empty) {
+            if takes_all {
                 break;
             }
+            takes_all = true;
         }
         for (values, more) in values.iter_mut().zip(more) {
             values.extend(more);
             values.sort_by(f64::total_cmp);
         }
     }
-    let Some((surface, at, _)) = kept else { return refuse("points: no surface".into()) };
+    let Some((surface, mut at, _)) = kept else { return refuse("points: no surface".into()) };
     let shape = IndexedSurface::new(surface);
-    let (parameters, certificate) = certify(&shape, points, Some(&at), options.threads, poll)?;
-    Ok(Near { shape: shape.surface().clone(), parameters, certificate })
+    let (found, certificate) = certify(&shape, points, Some(&at), options.threads, poll)?;
+    order.iter().zip(&found).for_each(|(&i, found)| at[i] = *found);
+    let certificate = Certificate { worst_index: order[certificate.worst_index], ..certificate };
+    Ok(Near { shape: shape.surface().clone(), parameters: at, certificate })
 }
 
-/// Points for each pole that tell, while knots are still missing, where. Few enough to be quick, enough for a cell to be seen: the
-/// worst of two dozen points of a cell is seldom far below the worst of all.
-const PER_POLE: usize = 24;
+/// Points for each pole, at least, that tell, while knots are still missing, where: up to twice as many are drawn. Few enough to be quick,
+/// enough for a cell to be seen: the worst of two dozen points of a cell is seldom far below the worst of all.
+const PER_POLE: usize = 16;
 
-/// Steps of a point that comes in late towards its foot on the last surface: its parameters are not those at which the others are by now.
-const STEPS: usize = 3;
+/// Parameters are corrected when no point is farther away than this many tolerances. Feet on a surface that is still coarse are no better
+/// than the parameters that were there, and bend the parametrisation: that takes more poles, not fewer.
+const NEAR: f64 = 10.0;
 
-/// About `wanted` of `count` numbers, in order, as if drawn by lot, the same at every call, more of them when more are wanted; none
-/// when that is hardly less work than all. Not every n-th: points often come in rows.
-fn drawn(count: usize, wanted: usize) -> Option<Vec<usize>> {
-    if wanted >= count / 2 {
-        return None;
-    }
-    let share = (wanted as f64 / count as f64 * u64::MAX as f64) as u64;
-    // The finaliser of splitmix64 (Steele, Lea, Flood, 2014).
-    let lot = |i: &usize| {
-        let x = (*i as u64).wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        x ^ (x >> 31)
+/// All parameters a step of Gauss and Newton nearer to their feet, and the distances there.
+fn stepped(
+    surface: &Surface,
+    points: &[Vector],
+    at: &[[f64; 2]],
+    threads: usize,
+    poll: Poll,
+) -> Result<(Vec<[f64; 2]>, Vec<f64>), Error> {
+    let ask = |i: usize, _: &mut Workspace| {
+        let ([u, v], distance) = nearer(surface, points[i], at[i], 1);
+        FootPoint { u, v, distance, ..FootPoint::unreached() }
     };
-    Some((0..count).filter(|i| lot(i) < share).collect())
+    let found = feet(points.len(), threads, &ask, poll)?;
+    let places = collect(found.len(), found.iter().map(|foot| [foot.u, foot.v]))?;
+    Ok((places, collect(found.len(), found.iter().map(|foot| foot.distance))?))
 }
 
-/// The surface of least squares for these knots, the parameters corrected on the way, and the distances at them.
+/// The surface of least squares for these knots, the parameters corrected on the way, the distances at them or a step beyond, and
+/// the knots that are missing.
 fn corrected(
     points: &[Vector],
-    at: &mut [[f64; 2]],
+    at: &mut Vec<[f64; 2]>,
     values: &[Vec<f64>; 2],
     options: &NearOptions,
+    limit: usize,
     poll: Poll,
-) -> Result<(Surface, Vec<f64>), Error> {
+) -> Result<(Surface, Vec<f64>, [Vec<f64>; 2]), Error> {
     let (mut surface, mut missed) = surface_of(points, at, values, options.degrees)?;
     for correction in 1..=options.corrections {
         if worst(&missed) <= options.tolerance {
             break;
         }
-        let before = &*at;
-        let ask = |i: usize, _: &mut Workspace| {
-            let ([u, v], distance) = nearer(&surface, points[i], before[i], 1);
-            FootPoint { u, v, distance, ..FootPoint::unreached() }
-        };
-        let found = feet(points.len(), options.threads, &ask, poll)?;
-        for (i, foot) in found.iter().enumerate() {
-            (at[i], missed[i]) = ([foot.u, foot.v], foot.distance);
+        let (places, reached) = stepped(&surface, points, at, options.threads, poll)?;
+        if correction == 1 && worst(&reached) > NEAR * options.tolerance {
+            // Without room for knots corrections are what is left.
+            let more = new_knots(&surface, at, &reached, options, limit);
+            if more.iter().any(|more| !more.is_empty()) {
+                return Ok((surface, reached, more));
+            }
         }
+        (*at, missed) = (places, reached);
         let reached = worst(&missed);
         if correction == options.corrections || reached <= options.tolerance {
             break;
@@ -383,7 +384,8 @@ fn corrected(
         }
         (surface, missed) = (again, now);
     }
-    Ok((surface, missed))
+    let more = new_knots(&surface, at, &missed, options, limit);
+    Ok((surface, missed, more))
 }
 
 /// The surface of least squares at parameters, and the distances there.
