@@ -292,8 +292,10 @@ pub fn surface_near(
                 let list = collect(0, some)?;
                 let points = collect(list.len(), list.iter().map(|&i| points[i]))?;
                 let at = collect(list.len(), list.iter().map(|&i| at[i]))?;
-                let (surface, _) = surface_of(&points, &at, &values, options.degrees)?;
-                let (_, missed) = stepped(&surface, &points, &at, options.threads, poll)?;
+                let (surface, mut missed) = surface_of(&points, &at, &values, options.degrees)?;
+                if options.corrections > 0 {
+                    (_, missed) = stepped(&surface, &points, &at, options.threads, poll)?;
+                }
                 new_knots(&surface, &at, &missed, options, limit)
             }
             None => {
