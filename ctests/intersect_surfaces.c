@@ -69,13 +69,19 @@ static void a_cone_is_cut_in_a_circle_and_its_apex_is_a_contact(void) {
     curves[0] = NULL;
     CHECK(fpt_surface_intersection_curves(found, cone, plane, 0, 1e-9, 0, &asking, &count, curves, &error) == FPT_CANCELLED);
     CHECK(curves[0] == NULL && questions == -1);
-    /* Every question of the intersection itself: also those after the last pair of parts. */
+    /* Every question of the intersection itself, also those after the last pair of parts: what was found by then, and the rest undecided. */
     fpt_surface_intersection *stopped = NULL;
     long asked = 0;
     for (fpt_status status = FPT_CANCELLED; status == FPT_CANCELLED; asked++) {
+        fpt_surface_intersection_free(stopped);
+        stopped = NULL;
         questions = asked;
         status = fpt_intersect_surfaces(cone, plane, &asking, &stopped);
-        CHECK(status == FPT_CANCELLED ? stopped == NULL : status == FPT_OK && stopped != NULL);
+        CHECK(stopped != NULL && (status == FPT_CANCELLED || status == FPT_OK));
+        s = summary_of(stopped);
+        CHECK(s.is_stopped == (status == FPT_CANCELLED) && s.is_exhausted == 0 && s.reserved == 0);
+        CHECK(s.undecided_count > 0 || (s.branch_count == 1 && s.is_proven == 1));
+        CHECK(status == FPT_OK || strstr(fpt_last_error(), "should_stop") != NULL);
     }
     CHECK(asked > (long)(summary_of(stopped).pairs / 256) + 2);
     fpt_surface_intersection_free(stopped);
@@ -200,6 +206,15 @@ static void faces_are_cut_off_at_their_trims_and_split(void) {
     CHECK(fpt_intersect_trims(tube, triangle, &options, &found) == FPT_BUDGET_EXHAUSTED);
     CHECK(found != NULL && summary_of(found).is_proven == 0 && summary_of(found).undecided_count > 0);
     fpt_surface_intersection_free(found);
+    asking.user = &stop;
+    stop = 1;
+    CHECK(fpt_intersect_trims(tube, triangle, &asking, &found) == FPT_CANCELLED);
+    CHECK(found != NULL && summary_of(found).is_stopped == 1 && summary_of(found).undecided_count > 0);
+    fpt_surface_intersection_free(found);
+    found = NULL;
+    options.budget = 0;
+    options.method = FPT_INTERSECT_MESH;
+    CHECK_ERROR(fpt_intersect_trims(tube, triangle, &options, &found), FPT_INVALID_ARGUMENT, "method");
     fpt_trim_free(tube);
     fpt_trim_free(triangle);
     fpt_support_free(flat);
@@ -210,6 +225,184 @@ static void faces_are_cut_off_at_their_trims_and_split(void) {
 static void count_calls(void *user, size_t done, size_t total) {
     CHECK(done <= total);
     ++*(size_t *)user;
+}
+
+typedef struct {
+    uint32_t steps;
+    double first[4], gap;
+} traced;
+
+static void trace_step(void *user, uint32_t step, const double *uvst, double gap) {
+    traced *told = user;
+    CHECK(step == told->steps);
+    if (step == 0) memcpy(told->first, uvst, sizeof told->first);
+    told->steps++;
+    told->gap = gap;
+}
+
+/* A cone through a plane, a circle: each corrector, marching, bisection and both discrete methods beside the search. */
+static void each_method_is_reached_by_its_name(void) {
+    fpt_surface *cone = make_surface(cone_surface()), *plane = plane_at(1.5);
+    fpt_surface_intersection *proven = NULL, *found = NULL;
+    fpt_intersect_surfaces_options options;
+    fpt_intersect_surfaces_options_init(&options, sizeof options);
+    CHECK(options.method == FPT_INTERSECT_AUTO && options.corrector == FPT_CORRECTOR_AUTO && options.levels == 0);
+    CHECK(options.tolerance == 0 && options.reserved == 0 && options.trace == NULL);
+    CHECK_OK(fpt_intersect_surfaces(cone, plane, NULL, &proven));
+    fpt_intersection_branch branch;
+    CHECK_OK(fpt_surface_intersection_branch(proven, 0, &branch));
+    fpt_intersection_point *points = calloc(branch.point_count, sizeof *points);
+    CHECK_OK(fpt_surface_intersection_points(proven, 0, branch.point_count, points));
+    const fpt_intersection_point *p = &points[branch.point_count / 3];
+    const double start[4] = {p->uv[0] + 1e-3, p->uv[1] - 1e-3, p->st[0] + 1e-3, p->st[1]};
+    options.trace = trace_step;
+    for (uint32_t corrector = FPT_CORRECTOR_AUTO; corrector <= FPT_CORRECTOR_MAF; corrector++) {
+        traced told = {0, {0}, 0};
+        fpt_intersection_point place;
+        double gap = -1;
+        uint32_t steps = 0;
+        options.corrector = corrector;
+        options.tolerance = 1e-10;
+        options.user = &told;
+        /* Circles of the cone beside the plane do not meet it. */
+        if (corrector == FPT_CORRECTOR_NEWTON_HOLDS_V) {
+            CHECK_ERROR(fpt_intersect_correct(cone, plane, start, &options, &place, &gap, &steps), FPT_BUDGET_EXHAUSTED, "corrector");
+            continue;
+        }
+        CHECK_OK(fpt_intersect_correct(cone, plane, start, &options, &place, &gap, &steps));
+        CHECK(gap >= 0 && gap <= 1e-10 && told.steps == steps + 1 && told.gap == gap && memcmp(told.first, start, sizeof start) == 0);
+        CHECK_NEAR(place.point[2], 1.5, 1e-10);
+        CHECK_NEAR(hypot(place.point[0] - 1, place.point[1]), 1, 1e-9);
+        if (corrector >= FPT_CORRECTOR_NEWTON_HOLDS_U && corrector <= FPT_CORRECTOR_NEWTON_HOLDS_T) {
+            const double at[4] = {place.uv[0], place.uv[1], place.st[0], place.st[1]};
+            const uint32_t held = corrector - FPT_CORRECTOR_NEWTON_HOLDS_U;
+            CHECK(at[held] == start[held]);
+        }
+    }
+    /* x = -9 of the plane misses the circle: said, and nothing written. */
+    fpt_intersection_point place = {{7, 7, 7}, {7, 7}, {7, 7}};
+    double gap = 7;
+    uint32_t steps = 7;
+    const double beside[4] = {start[0], start[1], 0, start[3]};
+    options.trace = NULL;
+    options.corrector = FPT_CORRECTOR_NEWTON_HOLDS_S;
+    CHECK_ERROR(fpt_intersect_correct(cone, plane, beside, &options, &place, &gap, &steps), FPT_BUDGET_EXHAUSTED, "corrector");
+    CHECK(place.point[0] == 7 && gap == 7 && steps == 7);
+
+    fpt_intersect_surfaces_options_init(&options, sizeof options);
+    options.corrector = FPT_CORRECTOR_MAF;
+    options.chord = 1e-2;
+    CHECK_OK(fpt_intersect_march(cone, plane, start, 0, &options, &found));
+    fpt_intersection_summary s = summary_of(found);
+    CHECK(s.branch_count == 1 && s.is_proven == 0 && s.undecided_count == 1);
+    CHECK_OK(fpt_surface_intersection_branch(found, 0, &branch));
+    CHECK(branch.point_count > 8 && branch.gap <= 1e-4 && isinf(branch.chord));
+    points = realloc(points, branch.point_count * sizeof *points);
+    double (*places)[4] = calloc(branch.point_count, sizeof *places);
+    CHECK_OK(fpt_surface_intersection_points(found, 0, branch.point_count, points));
+    for (size_t i = 0; i < branch.point_count; i++) {
+        CHECK_NEAR(points[i].point[2], 1.5, 1e-4);
+        CHECK_NEAR(hypot(points[i].point[0] - 1, points[i].point[1]), 1, 1e-4);
+        memcpy(places[i], points[i].uv, 2 * sizeof(double));
+        memcpy(places[i] + 2, points[i].st, 2 * sizeof(double));
+    }
+    fpt_surface_intersection_free(found);
+    options.chord = 1e-5;
+    const size_t coarse = branch.point_count;
+    CHECK_OK(fpt_intersect_bisect(cone, plane, places[0], coarse, &options, &found));
+    CHECK_OK(fpt_surface_intersection_branch(found, 0, &branch));
+    CHECK(branch.point_count > 4 * coarse && summary_of(found).is_proven == 0);
+    points = realloc(points, branch.point_count * sizeof *points);
+    CHECK_OK(fpt_surface_intersection_points(found, 0, branch.point_count, points));
+    for (size_t i = 1; i < branch.point_count; i++) {
+        const double x = 0.5 * (points[i - 1].point[0] + points[i].point[0]) - 1, y = 0.5 * (points[i - 1].point[1] + points[i].point[1]);
+        CHECK_NEAR(hypot(x, y), 1, 1.3e-4);
+    }
+    fpt_surface_intersection_free(found);
+
+    const uint32_t methods[3][2] = {{FPT_INTERSECT_SUBDIVISION, 4}, {FPT_INTERSECT_SUBDIVISION, 0}, {FPT_INTERSECT_MESH, 60}};
+    for (int i = 0; i < 3; i++) {
+        options.method = methods[i][0];
+        options.levels = methods[i][1];
+        options.chord = 1e-2;
+        CHECK_OK(fpt_intersect_surfaces(cone, plane, &options, &found));
+        s = summary_of(found);
+        CHECK(s.branch_count >= 1 && s.is_proven == 0 && s.undecided_count == 1 && s.pairs > 0);
+        double length = 0;
+        for (size_t k = 0; k < s.branch_count; k++) {
+            CHECK_OK(fpt_surface_intersection_branch(found, k, &branch));
+            CHECK(branch.gap > 0 && branch.gap < 0.2);
+            points = realloc(points, branch.point_count * sizeof *points);
+            CHECK_OK(fpt_surface_intersection_points(found, k, branch.point_count, points));
+            for (size_t j = 1; j < branch.point_count; j++)
+                length += hypot(points[j].point[0] - points[j - 1].point[0], points[j].point[1] - points[j - 1].point[1]);
+        }
+        CHECK_NEAR(length, 6.283185307179586, 0.1);
+        fpt_surface_intersection_free(found);
+        int stop = 1;
+        options.should_stop = stop_now;
+        options.user = &stop;
+        found = NULL;
+        CHECK(fpt_intersect_surfaces(cone, plane, &options, &found) == FPT_CANCELLED && found != NULL);
+        CHECK(summary_of(found).is_stopped == 1 && summary_of(found).undecided_count == 1);
+        fpt_surface_intersection_free(found);
+        options.should_stop = NULL;
+    }
+    found = NULL;
+    options.levels = 2000;
+    CHECK_ERROR(fpt_intersect_surfaces(cone, plane, &options, &found), FPT_INVALID_ARGUMENT, "levels");
+    options.method = 3;
+    CHECK_ERROR(fpt_intersect_surfaces(cone, plane, &options, &found), FPT_INVALID_ARGUMENT, "method");
+    fpt_intersect_surfaces_options_init(&options, sizeof options);
+    options.corrector = 7;
+    CHECK_ERROR(fpt_intersect_march(cone, plane, start, 0, &options, &found), FPT_INVALID_ARGUMENT, "corrector");
+    options.corrector = 0;
+    options.reserved = 1;
+    CHECK_ERROR(fpt_intersect_surfaces(cone, plane, &options, &found), FPT_INVALID_ARGUMENT, "reserved");
+    CHECK_ERROR(fpt_intersect_march(cone, plane, start, -1, NULL, &found), FPT_INVALID_ARGUMENT, "step");
+    CHECK_ERROR(fpt_intersect_march(NULL, plane, start, 0, NULL, &found), FPT_NULL_ARGUMENT, "a");
+    CHECK_ERROR(fpt_intersect_march(cone, plane, NULL, 0, NULL, &found), FPT_NULL_ARGUMENT, "uvst");
+    CHECK_ERROR(fpt_intersect_bisect(cone, plane, start, 1, NULL, &found), FPT_INVALID_ARGUMENT, "places");
+    CHECK_ERROR(fpt_intersect_correct(cone, NULL, start, NULL, &place, &gap, &steps), FPT_NULL_ARGUMENT, "b");
+    CHECK_ERROR(fpt_intersect_correct(cone, plane, start, NULL, &place, &gap, NULL), FPT_NULL_ARGUMENT, "out_steps");
+    const double nowhere[4] = {0, NAN, 0, 0};
+    CHECK_ERROR(fpt_intersect_correct(cone, plane, nowhere, NULL, &place, &gap, &steps), FPT_INVALID_ARGUMENT, "uvst");
+    CHECK(found == NULL);
+    free(places);
+    free(points);
+    fpt_surface_intersection_free(proven);
+    fpt_surface_free(plane);
+    fpt_surface_free(cone);
+}
+
+/* The caller's point tolerance: kept, or not said to be kept; what is nearer touches. */
+static void a_point_tolerance_holds(void) {
+    fpt_surface *cone = make_surface(cone_surface()), *plane = plane_at(1.5), *above = plane_at(1.5 + 1e-9);
+    fpt_surface_intersection *found = NULL;
+    fpt_intersect_surfaces_options options;
+    fpt_intersect_surfaces_options_init(&options, sizeof options);
+    const double tolerances[] = {1e-9, 1e-20};
+    for (int i = 0; i < 2; i++) {
+        options.tolerance = tolerances[i];
+        CHECK_OK(fpt_intersect_surfaces(cone, plane, &options, &found));
+        fpt_intersection_summary s = summary_of(found);
+        CHECK(s.branch_count == 1 && s.undecided_count == 0 && s.is_proven == (i == 0));
+        fpt_surface_intersection_free(found);
+    }
+    options.tolerance = 0;
+    CHECK_OK(fpt_intersect_surfaces(plane, above, &options, &found));
+    CHECK(summary_of(found).is_proven == 1 && summary_of(found).overlap_count == 0);
+    fpt_surface_intersection_free(found);
+    options.tolerance = 1e-7;
+    CHECK_OK(fpt_intersect_surfaces(plane, above, &options, &found));
+    CHECK(summary_of(found).is_proven == 0 && summary_of(found).overlap_count > 0);
+    fpt_surface_intersection_free(found);
+    found = NULL;
+    options.tolerance = -1;
+    CHECK_ERROR(fpt_intersect_surfaces(cone, plane, &options, &found), FPT_INVALID_ARGUMENT, "tolerance");
+    fpt_surface_free(above);
+    fpt_surface_free(plane);
+    fpt_surface_free(cone);
 }
 
 static void budget_stop_and_misuse(void) {
@@ -232,7 +425,10 @@ static void budget_stop_and_misuse(void) {
     options.budget = 0;
     options.should_stop = stop_now;
     options.user = &stop;
-    CHECK(fpt_intersect_surfaces(cone, plane, &options, &found) == FPT_CANCELLED && found == NULL);
+    CHECK(fpt_intersect_surfaces(cone, plane, &options, &found) == FPT_CANCELLED && found != NULL);
+    CHECK(summary_of(found).is_stopped == 1 && summary_of(found).branch_count == 0 && summary_of(found).undecided_count > 0);
+    fpt_surface_intersection_free(found);
+    found = NULL;
     size_t calls = 0;
     options.should_stop = NULL;
     options.progress = count_calls;
@@ -266,6 +462,8 @@ int main(void) {
     RUN(a_cone_is_cut_in_a_circle_and_its_apex_is_a_contact);
     RUN(coincident_planes_overlap);
     RUN(faces_are_cut_off_at_their_trims_and_split);
+    RUN(each_method_is_reached_by_its_name);
+    RUN(a_point_tolerance_holds);
     RUN(budget_stop_and_misuse);
     return check_report("intersect_surfaces");
 }

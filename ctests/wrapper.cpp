@@ -601,6 +601,34 @@ void surfaces_meet_in_branches() {
     few.budget = 1;
     const footpoint::surface_intersection part(saddle, flat, few);
     CHECK(part.summary().is_exhausted == 1 && part.undecided(0)[1] > 0);
+    footpoint::intersect_surfaces_options stopping;
+    stopping.should_stop = [](void *) { return 1; };
+    const footpoint::surface_intersection stopped(saddle, flat, stopping);
+    CHECK(stopped.summary().is_stopped == 1 && stopped.summary().is_proven == 0 && stopped.summary().undecided_count > 0);
+    /* Each method by name, beside the search. */
+    const fpt_intersection_point p = found.points(0)[1];
+    const std::array<double, 4> start{p.uv[0] + 0.01, p.uv[1], p.st[0], p.st[1] - 0.01};
+    footpoint::intersect_surfaces_options asked;
+    for (std::uint32_t corrector = FPT_CORRECTOR_AUTO; corrector <= FPT_CORRECTOR_MAF; corrector++) {
+        asked.corrector = corrector;
+        const footpoint::corrected place = footpoint::correct(saddle, flat, start, asked);
+        CHECK(place.gap < 1e-11 && place.steps > 0 && std::fabs(place.place.point[2]) < 1e-11);
+    }
+    asked.corrector = FPT_CORRECTOR_MAF;
+    const auto walk = footpoint::surface_intersection::march(saddle, flat, start, 0, asked);
+    CHECK(walk.size() == 1 && walk.summary().is_proven == 0 && walk.branch(0).end_kind[0] == FPT_BRANCH_END_BORDER);
+    for (const auto &q : walk.points(0)) CHECK_NEAR(q.point[2], 0, 1e-5);
+    std::vector<std::array<double, 4>> places;
+    for (const auto &q : {walk.points(0).front(), walk.points(0).back()}) places.push_back({q.uv[0], q.uv[1], q.st[0], q.st[1]});
+    asked.chord = 1e-4;
+    CHECK(footpoint::surface_intersection::bisect(saddle, flat, places, asked).branch(0).point_count > 4);
+    for (const std::uint32_t method : {FPT_INTERSECT_SUBDIVISION, FPT_INTERSECT_MESH}) {
+        asked.method = method;
+        asked.levels = 8;
+        const footpoint::surface_intersection lines(saddle, flat, asked);
+        CHECK(lines.size() == 2 && lines.summary().is_proven == 0 && lines.branch(0).gap < 0.1);
+    }
+    check_thrown([&] { footpoint::surface_intersection::march(saddle, flat, {0, 0, NAN, 0}); }, FPT_INVALID_ARGUMENT, "uvst");
 }
 
 void fairing_and_inspection_are_those_of_the_c_api() {
@@ -640,7 +668,11 @@ void intersections_are_those_of_the_c_api() {
     const std::vector<double> ends = {0, 0, 1, 1};
     const curve a(1, ends, std::vector<double>{0, 0, 0, 2, 2, 0}), b(1, ends, std::vector<double>{0, 2, 0, 2, 0, 0});
     const auto crossing = footpoint::intersect(a, b);
-    CHECK(crossing.hits.size() == 1 && crossing.undecided.empty() && crossing.hits[0].multiplicity == 1);
+    CHECK(crossing.hits.size() == 1 && crossing.undecided.empty() && crossing.hits[0].multiplicity == 1 && !crossing.is_stopped);
+    footpoint::hit_options stopping;
+    stopping.should_stop = [](void *) { return 1; };
+    const auto stopped = footpoint::intersect(a, b, stopping);
+    CHECK(stopped.is_stopped && stopped.hits.empty() && stopped.undecided.size() == 1 && stopped.undecided[0][1] == 1);
     const surface flat(1, 1, ends, ends, std::vector<double>{0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0});
     const curve rod(1, ends, std::vector<double>{0.25, 0.5, -1, 0.25, 0.5, 1});
     const auto through = footpoint::intersect(flat, rod);

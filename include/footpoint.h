@@ -708,6 +708,58 @@ typedef enum fpt_branch_end {
 } fpt_branch_end;
 
 /**
+ * How an intersection is found, for fpt_intersect_surfaces_options.method.
+ */
+typedef enum fpt_intersect_method {
+    /**
+     * The search that proves: subdivision for the topology, Newton for points.
+     */
+    FPT_INTERSECT_AUTO = 0,
+    /**
+     * Subdivision by hulls to a depth or until flat, triangle pairs, segments joined: polylines of which nothing is proven.
+     */
+    FPT_INTERSECT_SUBDIVISION = 1,
+    /**
+     * Two tessellations: polylines of which nothing is proven. Of surfaces given by functions too.
+     */
+    FPT_INTERSECT_MESH = 2,
+} fpt_intersect_method;
+
+/**
+ * How a place near both surfaces becomes one on both, for fpt_intersect_surfaces_options.corrector.
+ */
+typedef enum fpt_corrector {
+    /**
+     * Newton with four parameters, and with three where one is held at a border.
+     */
+    FPT_CORRECTOR_AUTO = 0,
+    /**
+     * Newton with three parameters: u of A is held.
+     */
+    FPT_CORRECTOR_NEWTON_HOLDS_U = 1,
+    /**
+     * v of A is held.
+     */
+    FPT_CORRECTOR_NEWTON_HOLDS_V = 2,
+    /**
+     * u of B is held.
+     */
+    FPT_CORRECTOR_NEWTON_HOLDS_S = 3,
+    /**
+     * v of B is held.
+     */
+    FPT_CORRECTOR_NEWTON_HOLDS_T = 4,
+    /**
+     * Newton with four parameters: the step that moves both surface points least.
+     */
+    FPT_CORRECTOR_NEWTON_FOUR = 5,
+    /**
+     * Moving affine frame: ball and midpoint transforms, the middle of both feet where the tangent planes are parallel.
+     */
+    FPT_CORRECTOR_MAF = 6,
+} fpt_corrector;
+
+/**
  * What an end of a branch is.
  */
 typedef enum fpt_section_end {
@@ -2544,17 +2596,47 @@ typedef struct fpt_intersect_surfaces_options {
      */
     uint64_t budget;
     /**
-     * Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED. NULL: never.
+     * Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED, and an intersection with what was found by
+     * then. NULL: never.
      */
     int (*should_stop)(void *user);
     /**
-     * Told on the calling thread now and then: pairs judged, and pairs judged or waiting. NULL: nobody.
+     * Told on the calling thread now and then: pairs judged, and pairs judged or waiting; by fpt_surface_intersection_curves points of
+     * the branch. NULL: nobody.
      */
     void (*progress)(void *user, size_t done, size_t total);
     /**
      * Handed to the callbacks as it is.
      */
     void *user;
+    /**
+     * Length, finite, >= 0: surfaces that are nearer than this touch where they are parallel, and are not told apart further; points of
+     * branches are within it of both surfaces, rounding included, or the result is not proven. fpt_intersect_correct ends within
+     * it. 0: what the arithmetic can tell.
+     */
+    double tolerance;
+    /**
+     * A value of fpt_intersect_method.
+     */
+    uint32_t method;
+    /**
+     * A value of fpt_corrector, for fpt_intersect_correct, fpt_intersect_march and fpt_intersect_bisect.
+     */
+    uint32_t corrector;
+    /**
+     * FPT_INTERSECT_SUBDIVISION: how often both surfaces are quartered, at most 20; 0: until their parts are as flat as the chord.
+     * FPT_INTERSECT_MESH: cells along each direction, at most 1024; 0: 64.
+     */
+    uint32_t levels;
+    /**
+     * Must be 0.
+     */
+    uint32_t reserved;
+    /**
+     * Told by fpt_intersect_correct on the calling thread: each iterate, its u, v of A and u, v of B, and the distance between the two
+     * surface points; step 0 is the start. NULL: nobody.
+     */
+    void (*trace)(void *user, uint32_t step, const double *uvst, double gap);
 } fpt_intersect_surfaces_options;
 
 /**
@@ -2590,6 +2672,15 @@ typedef struct fpt_intersection_summary {
      * 1: the budget ran out.
      */
     uint32_t is_exhausted;
+    /**
+     * 1: should_stop said so. What was not looked at by then is undecided; chords may be longer than asked (the chord of each branch is
+     * true), and borders of overlaps are left out.
+     */
+    uint32_t is_stopped;
+    /**
+     * 0.
+     */
+    uint32_t reserved;
 } fpt_intersection_summary;
 
 /**
@@ -3133,7 +3224,7 @@ typedef struct fpt_hit_options {
      */
     uint32_t reserved;
     /**
-     * Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED. NULL: never.
+     * Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED and what was found by then. NULL: never.
      */
     int (*should_stop)(void *user);
     /**
@@ -7102,10 +7193,14 @@ void fpt_intersect_surfaces_options_init(struct fpt_intersect_surfaces_options *
  * Pairs of Bezier pieces are halved until they provably hold nothing or one transversal arc; loops cannot hide. Where the surfaces touch
  * to the last digits, the contact is classified and measured, not proven.
  *
- * @param a, b     surfaces of knots and poles; FPT_UNSUPPORTED for one given by a function, or that is a point
+ * FPT_INTERSECT_SUBDIVISION and FPT_INTERSECT_MESH give polylines on triangles: the gap of a branch says how far its points are off, nothing
+ * is proven, and one undecided box is all of both domains.
+ *
+ * @param a, b     surfaces of knots and poles; FPT_UNSUPPORTED for one given by a function (but by FPT_INTERSECT_MESH), or that is a
+ *                 point
  * @param options  NULL: the defaults
  * @param out      the result; release it with fpt_surface_intersection_free
- * @return FPT_BUDGET_EXHAUSTED with a result that misses what lies in its undecided boxes
+ * @return FPT_BUDGET_EXHAUSTED, or FPT_CANCELLED when should_stop said so, with a result that misses what lies in its undecided boxes
  * @since 0.1
  */
 FPT_MUST_USE
@@ -7125,7 +7220,7 @@ fpt_status fpt_intersect_surfaces(const struct fpt_surface *a,
  * @param a, b     the faces
  * @param options  NULL: the defaults
  * @param out      the result; release it with fpt_surface_intersection_free
- * @return FPT_BUDGET_EXHAUSTED with a result that misses what lies in its undecided boxes
+ * @return FPT_BUDGET_EXHAUSTED, or FPT_CANCELLED when should_stop said so, with a result that misses what lies in its undecided boxes
  * @since 0.1
  */
 FPT_MUST_USE
@@ -7254,6 +7349,78 @@ fpt_status fpt_surface_intersection_split(const struct fpt_surface_intersection 
  * @since 0.1
  */
 void fpt_surface_intersection_free(struct fpt_surface_intersection *intersection);
+
+/**
+ * Moves a place near two surfaces onto both by one corrector alone (fpt_corrector), without proof: Newton with three or four parameters,
+ * or the moving affine frame.
+ *
+ * Parameters outside the domains are moved into them. The iteration ends when the distance between the two surface points is within
+ * the tolerance and falls no more; each step is told to options.trace.
+ *
+ * @param a, b       surfaces, also given by functions
+ * @param uvst       4 numbers: u, v of A, u, v of B
+ * @param options    tolerance (0: 1e-12 x the size of the smaller surface), corrector, trace and user count; NULL: the defaults
+ * @param out        the place on both surfaces
+ * @param out_gap    distance between its two surface points
+ * @param out_steps  number of steps
+ * @return FPT_BUDGET_EXHAUSTED when it does not get there within 50 steps, or a step does not exist: an isoline that is held may miss the
+ *         other surface. Nothing is written then
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_intersect_correct(const struct fpt_surface *a,
+                                 const struct fpt_surface *b,
+                                 const double *uvst,
+                                 const struct fpt_intersect_surfaces_options *options,
+                                 struct fpt_intersection_point *out,
+                                 double *out_gap,
+                                 uint32_t *out_steps);
+
+/**
+ * The branch through a place near two surfaces, walked both ways by marching alone, without proof: steps along n_A x n_B by the chord tolerance,
+ * corrected; it ends where it began, at borders (with three parameters), and where the tangent planes are parallel.
+ *
+ * The result has one branch, of which nothing is proven, and one undecided box that is all of both domains. A walk ends at seams.
+ *
+ * @param a, b     surfaces, also given by functions
+ * @param uvst     4 numbers: u, v of A, u, v of B
+ * @param step     length, finite, >= 0: the first step; 0: a 256th of the size of the smaller surface
+ * @param options  chord, corrector, should_stop, progress and user count; NULL: the defaults
+ * @param out      the result; release it with fpt_surface_intersection_free
+ * @return FPT_BUDGET_EXHAUSTED without a result when the place leads to no branch; FPT_CANCELLED with what was walked by then
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_intersect_march(const struct fpt_surface *a,
+                               const struct fpt_surface *b,
+                               const double *uvst,
+                               double step,
+                               const struct fpt_intersect_surfaces_options *options,
+                               struct fpt_surface_intersection **out);
+
+/**
+ * The branch through given places in order, with as many between them as the chord tolerance asks for, by bisection alone, without proof:
+ * midpoints of the parameters are corrected.
+ *
+ * The result has one branch, of which nothing is proven, and one undecided box that is all of both domains. It is closed when the last place
+ * is the first one.
+ *
+ * @param a, b     surfaces, also given by functions
+ * @param uvst     4 numbers each: u, v of A, u, v of B; they are kept as they are
+ * @param count    number of places, at least 2
+ * @param options  chord, corrector, should_stop, progress and user count; NULL: the defaults
+ * @param out      the result; release it with fpt_surface_intersection_free
+ * @return FPT_BUDGET_EXHAUSTED without a result when a midpoint cannot be corrected, or lands elsewhere than between its two places;
+ *         FPT_CANCELLED with what was put between by then
+ * @since 0.1
+ */
+FPT_MUST_USE
+fpt_status fpt_intersect_bisect(const struct fpt_surface *a,
+                                const struct fpt_surface *b,
+                                const double *uvst,
+                                size_t count,
+                                const struct fpt_intersect_surfaces_options *options,
+                                struct fpt_surface_intersection **out);
 
 /**
  * Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.
@@ -7559,7 +7726,7 @@ void fpt_hit_options_init(struct fpt_hit_options *options, size_t struct_size);
  *
  * @param options  tolerance, budget, should_stop and user count; NULL: the defaults
  * @param out      the hits; release them with fpt_curve_hits_free
- * @return FPT_BUDGET_EXHAUSTED with hits that miss what lies in the undecided boxes
+ * @return FPT_BUDGET_EXHAUSTED, or FPT_CANCELLED when should_stop said so, with hits that miss what lies in the undecided boxes
  * @since 0.1
  */
 FPT_MUST_USE
@@ -7651,7 +7818,8 @@ void fpt_curve_hits_free(struct fpt_curve_hits *hits);
  * @param count     at least 1
  * @param options   NULL: the defaults
  * @param out       the sections, in the order of the quadrics; release them with fpt_sections_free
- * @return FPT_BUDGET_EXHAUSTED with sections of which some miss what lies in their undecided regions
+ * @return FPT_BUDGET_EXHAUSTED, or FPT_CANCELLED when should_stop said so, with sections of which some miss what lies in their undecided
+ *         regions: all of the domain for those not begun
  * @since 0.1
  */
 FPT_MUST_USE
@@ -7821,6 +7989,8 @@ fpt_status fpt_caster_nearest(const struct fpt_caster *caster,
  * @param reach       as for fpt_caster_first
  * @param options     as for fpt_caster_first
  * @param out         the hits; release them with fpt_ray_hits_free
+ * @return FPT_CANCELLED when should_stop said so: rays not reached have no hit, some have only their first one, and all of these have
+ *         FPT_RAY_NOT_PROVEN in their flags
  * @since 0.1
  */
 FPT_MUST_USE

@@ -2232,6 +2232,21 @@ struct intersect_surfaces_options : fpt_intersect_surfaces_options {
     }
 };
 
+/** A place on two surfaces, the distance of its two surface points, and the steps that it took. */
+struct corrected {
+    fpt_intersection_point place;
+    double gap;
+    std::uint32_t steps;
+};
+
+/** As fpt_intersect_correct: u, v of a, u, v of b. */
+inline corrected correct(const surface &a, const surface &b, const std::array<double, 4> &uvst,
+                         const fpt_intersect_surfaces_options &options = intersect_surfaces_options()) {
+    corrected out{};
+    check(fpt_intersect_correct(a.get(), b.get(), uvst.data(), &options, &out.place, &out.gap, &out.steps));
+    return out;
+}
+
 /** A branch as curves in space and in both domains, and the proven error. */
 struct branch_curves {
     curve space, uv, st;
@@ -2242,13 +2257,12 @@ struct branch_curves {
 /** All that two surfaces have in common: owner of an fpt_surface_intersection. */
 class surface_intersection {
 public:
-    /** As fpt_intersect_surfaces; a budget that runs out gives a result that is exhausted. */
+    /** As fpt_intersect_surfaces; a budget that runs out gives a result that is exhausted, should_stop one that is stopped. */
     surface_intersection(const surface &a, const surface &b,
                          const fpt_intersect_surfaces_options &options = intersect_surfaces_options()) {
         fpt_surface_intersection *out = nullptr;
         const fpt_status status = fpt_intersect_surfaces(a.get(), b.get(), &options, &out);
-        if (status != FPT_BUDGET_EXHAUSTED) check(status);
-        handle_.reset(out);
+        handle_.reset(given(out, status));
     }
 
     /** As fpt_intersect_trims. */
@@ -2256,8 +2270,23 @@ public:
                          const fpt_intersect_surfaces_options &options = intersect_surfaces_options()) {
         fpt_surface_intersection *out = nullptr;
         const fpt_status status = fpt_intersect_trims(a.get(), b.get(), &options, &out);
-        if (status != FPT_BUDGET_EXHAUSTED) check(status);
-        handle_.reset(out);
+        handle_.reset(given(out, status));
+    }
+
+    /** As fpt_intersect_march: u, v of a, u, v of b. */
+    static surface_intersection march(const surface &a, const surface &b, const std::array<double, 4> &uvst, double step = 0,
+                                      const fpt_intersect_surfaces_options &options = intersect_surfaces_options()) {
+        fpt_surface_intersection *out = nullptr;
+        const fpt_status status = fpt_intersect_march(a.get(), b.get(), uvst.data(), step, &options, &out);
+        return surface_intersection(given(out, status));
+    }
+    /** As fpt_intersect_bisect: u, v of a, u, v of b of each place. */
+    static surface_intersection bisect(const surface &a, const surface &b, span<const std::array<double, 4>> uvst,
+                                       const fpt_intersect_surfaces_options &options = intersect_surfaces_options()) {
+        fpt_surface_intersection *out = nullptr;
+        const double *first = uvst.size() == 0 ? nullptr : uvst.data()->data();
+        const fpt_status status = fpt_intersect_bisect(a.get(), b.get(), first, uvst.size(), &options, &out);
+        return surface_intersection(given(out, status));
     }
 
     /** The handle, still owned here. */
@@ -2322,6 +2351,14 @@ public:
     }
 
 private:
+    explicit surface_intersection(fpt_surface_intersection *handle) noexcept : handle_(handle) {}
+
+    /** A result that is complete, or that says that it is not. */
+    static fpt_surface_intersection *given(fpt_surface_intersection *out, fpt_status status) {
+        if (out == nullptr) check(status);
+        return out;
+    }
+
     struct deleter {
         void operator()(fpt_surface_intersection *handle) const noexcept { fpt_surface_intersection_free(handle); }
     };
@@ -2541,6 +2578,8 @@ struct curve_hits {
     std::vector<fpt_curve_hit> hits;
     /** Boxes u0,u1,v0,v1,w0,w1 that are undecided: more hits may lie in them. */
     std::vector<std::array<double, 6>> undecided;
+    /** Whether should_stop ended the call: what was not looked at by then is undecided. */
+    bool is_stopped = false;
 };
 
 /** A branch of a section. */
@@ -2563,9 +2602,10 @@ template <class Call>
 curve_hits hits(Call call) {
     fpt_curve_hits *handle = nullptr;
     const fpt_status status = call(&handle);
-    if (status != FPT_BUDGET_EXHAUSTED) check(status);
+    if (handle == nullptr) check(status);
     const std::unique_ptr<fpt_curve_hits, void (*)(fpt_curve_hits *)> owner(handle, fpt_curve_hits_free);
     curve_hits out;
+    out.is_stopped = status == FPT_CANCELLED;
     std::size_t count = 0;
     check(fpt_curve_hits_count(handle, &count));
     out.hits.resize(count);
@@ -2610,14 +2650,15 @@ inline curve_hits intersect(const curve &first, const fpt_quadric &second, const
     return detail::hits(
         [&](fpt_curve_hits **out) { return fpt_intersect_curve_quadric(first.get(), &second, &options, out); });
 }
-/** As fpt_intersect_surface_quadrics: one section per quadric. */
+/** As fpt_intersect_surface_quadrics: one section per quadric. After should_stop, those that were not begun have all of the domain as an
+ * undecided region. */
 inline std::vector<section> sections(const surface &shape, span<const quadric> quadrics,
                                      const fpt_hit_options &options = hit_options()) {
     static_assert(sizeof(quadric) == sizeof(fpt_quadric), "a quadric adds nothing");
     fpt_sections *handle = nullptr;
     const fpt_status status =
         fpt_intersect_surface_quadrics(shape.get(), quadrics.data(), quadrics.size(), &options, &handle);
-    if (status != FPT_BUDGET_EXHAUSTED) check(status);
+    if (handle == nullptr) check(status);
     const std::unique_ptr<fpt_sections, void (*)(fpt_sections *)> owner(handle, fpt_sections_free);
     std::vector<section> out;
     for (std::size_t k = 0; k < quadrics.size(); k++) out.push_back(detail::read_section(handle, k));
@@ -2660,14 +2701,15 @@ public:
         check(fpt_caster_nearest(get(), origins.data(), directions.data(), out.size(), part.data(), &options, out.data()));
         return out;
     }
-    /** As fpt_caster_all: the hits of each ray. */
+    /** As fpt_caster_all: the hits of each ray; thrown when should_stop ended the call. */
     std::vector<std::vector<fpt_ray_hit>> all(span<const double> origins, span<const double> directions,
                                               const reach &part = {0, std::numeric_limits<double>::infinity()},
                                               const fpt_hit_options &options = hit_options()) const {
         const std::size_t count = count_of(origins, directions);
         fpt_ray_hits *handle = nullptr;
-        check(fpt_caster_all(get(), origins.data(), directions.data(), count, part.data(), &options, &handle));
+        const fpt_status status = fpt_caster_all(get(), origins.data(), directions.data(), count, part.data(), &options, &handle);
         const std::unique_ptr<fpt_ray_hits, void (*)(fpt_ray_hits *)> owner(handle, fpt_ray_hits_free);
+        check(status);
         std::size_t total = 0;
         check(fpt_ray_hits_count(handle, &total));
         std::vector<fpt_ray_hit> hits(total);

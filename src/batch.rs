@@ -57,7 +57,7 @@ pub type Place<'a> = &'a (dyn Fn(usize) -> Vector + Sync);
 pub type Poll<'a> = &'a mut dyn FnMut(usize) -> bool;
 
 /// Memory that a thread keeps until it ends, so that calls with one query each allocate nothing.
-pub type Kept<W> = LocalKey<Cell<Option<W>>>;
+pub type Kept<W> = LocalKey<Cell<Option<Box<W>>>>;
 
 /// What a thread works with.
 pub trait Memory: Default + 'static {
@@ -72,7 +72,7 @@ macro_rules! keep {
         impl Memory for $memory {
             fn kept() -> Option<&'static Kept<Self>> {
                 thread_local! {
-                    static OWN: Cell<Option<$memory>> = const { Cell::new(None) };
+                    static OWN: Cell<Option<Box<$memory>>> = const { Cell::new(None) };
                 }
                 Some(&OWN)
             }

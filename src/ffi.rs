@@ -64,7 +64,9 @@ mod trim;
 mod trim_parts;
 mod trim_change;
 mod trim_report;
+mod march_records;
 mod march;
+mod march_methods;
 mod inspect_records;
 mod fair;
 mod inspect;
@@ -114,6 +116,8 @@ enum Failure {
     Refused(Error),
     /// A set that was handed over without being complete.
     Budget(String),
+    /// What was found when the caller said stop.
+    Stopped(String),
     Internal(String),
 }
 
@@ -134,7 +138,7 @@ impl Failure {
             Self::Refused(Error::InvalidArgument(_)) => FPT_INVALID_ARGUMENT,
             Self::Refused(Error::Unsupported(_)) => FPT_UNSUPPORTED,
             Self::Refused(Error::OutOfMemory) => FPT_OUT_OF_MEMORY,
-            Self::Refused(Error::Cancelled) => FPT_CANCELLED,
+            Self::Refused(Error::Cancelled) | Self::Stopped(_) => FPT_CANCELLED,
             Self::Budget(_) => FPT_BUDGET_EXHAUSTED,
             Self::Internal(_) => FPT_INTERNAL,
         }
@@ -146,7 +150,7 @@ impl fmt::Display for Failure {
         match self {
             Self::Null(name) => write!(f, "{name}: must not be NULL"),
             Self::Refused(error) => error.fmt(f),
-            Self::Budget(text) => f.write_str(text),
+            Self::Budget(text) | Self::Stopped(text) => f.write_str(text),
             Self::Internal(text) => write!(f, "internal error, please report: {text}"),
         }
     }

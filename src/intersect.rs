@@ -31,6 +31,8 @@ mod rays;
 
 mod pairs;
 
+mod hits;
+
 mod curves;
 
 mod curve_quadric;
@@ -39,7 +41,7 @@ mod conics;
 
 pub use branches::{Branch, BranchPoint, End};
 pub use conics::{Common, Conic};
-pub use curves::{CurveHit, CurveHits, HitOptions, Nature};
+pub use hits::{CurveHit, CurveHits, HitOptions, Nature};
 pub use quadric::Quadric;
 pub use rays::{CastMemory, Caster, Hit, Ray, RayHits, ray_flag};
 pub use section::{Contact, DEFAULT_BUDGET, Junction, Section, SectionOptions};

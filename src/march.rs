@@ -57,6 +57,8 @@ pub mod curves;
 
 mod functions;
 
+pub mod named;
+
 mod border;
 
 pub mod faces;
@@ -67,12 +69,12 @@ use crate::bounds::{HALF_ULP, Vector, add, norm, scaled, sub};
 use crate::error::Error;
 use crate::index::IndexedSurface;
 use crate::surface::Surface;
-use assemble::{Maker, at_point, region};
+use assemble::{Maker, at_point};
 use cluster::clusters;
 use join::Joiner;
 pub use join::distance_to_chord;
 use overlap::rims;
-use search::{Open, Search};
+use search::Search;
 use tangent::ridges;
 use watch::Watch;
 
@@ -87,17 +89,27 @@ pub struct MarchOptions {
     pub chord: f64,
     /// Most pairs of parts; 0: [`DEFAULT_BUDGET`].
     pub budget: u64,
+    /// Length, finite, >= 0: surfaces that are nearer than this touch where they are parallel, and are not told apart further; points of
+    /// branches are within it of both surfaces, rounding included, or the result is not proven. 0: what the arithmetic can tell.
+    pub tolerance: f64,
 }
 
 impl MarchOptions {
     /// # Errors
     /// [`Error::InvalidArgument`] for a length that is negative or not finite.
     fn checked(self) -> Result<Self, Error> {
-        if !self.chord.is_finite() || self.chord < 0.0 {
-            let text = format!("chord: {} is not a length", self.chord);
-            return Err(Error::InvalidArgument(text));
+        for (name, length) in [("chord", self.chord), ("tolerance", self.tolerance)] {
+            if !length.is_finite() || length < 0.0 {
+                let text = format!("{name}: {length} is not a length");
+                return Err(Error::InvalidArgument(text));
+            }
         }
         Ok(self)
+    }
+
+    /// The chord tolerance for surfaces of which the smaller has this size.
+    fn chord_or(self, size: f64) -> f64 {
+        if self.chord > 0.0 { self.chord } else { 1e-3 * size }
     }
 }
 
@@ -218,8 +230,22 @@ pub struct Intersection {
     pub is_proven: bool,
     /// Whether the budget ran out.
     pub exhausted: bool,
+    /// Whether the caller said stop: what was not looked at by then is undecided, chords may be longer than asked ([`Branch::chord`]),
+    /// and borders of overlaps are left out.
+    pub stopped: bool,
     /// Pairs of parts judged.
     pub judged: u64,
+    /// How far evaluating a point of both surfaces may be off together, a length: a point of a branch is within [`Branch::gap`] and this of
+    /// each surface.
+    pub rounding: f64,
+}
+
+impl Intersection {
+    /// Whether the points of all branches are within `tolerance` of both surfaces; 0: nothing is asked.
+    fn holds(&self, tolerance: f64) -> bool {
+        let is_within = |branch: &Branch| branch.gap + self.rounding <= tolerance;
+        tolerance == 0.0 || self.branches.iter().all(is_within)
+    }
 }
 
 /// Both surfaces in one frame: around the middle of the smaller one, scaled by a power of two to its size.
@@ -273,11 +299,11 @@ impl Frames {
 }
 
 /// All that two surfaces have in common. `poll(judged, waiting)` is asked now and then whether to stop, while pairs are judged and in
-/// every phase after that.
+/// every phase after that. A stop gives what was found so far and lists what was not looked at, as a budget does
+/// ([`Intersection::stopped`]); it takes effect after what joining the arcs found so far takes.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for a length that is negative or not finite; [`Error::Unsupported`] for a surface that is a point;
-/// [`Error::Cancelled`].
+/// [`Error::InvalidArgument`] for a length that is negative or not finite; [`Error::Unsupported`] for a surface that is a point.
 pub fn intersect(
     a: &IndexedSurface,
     b: &IndexedSurface,
@@ -288,32 +314,30 @@ pub fn intersect(
     let frames = Frames::new(a.surface(), b.surface())?;
     let [sa, sb] = &frames.surfaces;
     let chord = if options.chord > 0.0 { options.chord * frames.scale } else { 1e-3 };
-    let mut search = Search::new([sa, sb], frames.noise);
+    let tolerance = options.tolerance * frames.scale;
+    let mut search = Search::new([sa, sb], frames.noise, tolerance);
     let budget = if options.budget > 0 { options.budget } else { DEFAULT_BUDGET };
     let watch = Watch::new(poll);
-    search.run(budget, &watch)?;
+    search.run(budget, &watch);
     let (chains, points) = Joiner::new(&search, chord, &watch).chains();
-    watch.phase()?;
+    watch.phase();
     let ridges = ridges(&search, chord, &watch);
-    watch.phase()?;
+    watch.phase();
     let mut made =
         Maker { a: a.surface(), b: b.surface(), search: &search, out: Intersection::default() };
-    made.out.judged = search.judged;
-    made.out.exhausted = search.open.iter().any(|pair| pair.why == Open::Budget);
+    (made.out.judged, made.out.exhausted) = (search.judged, search.exhausted);
     for &tip in &search.tips {
-        watch.stops(0);
-        made.tip(tip, [a, b]);
-    }
-    let groups = clusters(&search, &watch);
-    watch.phase()?;
-    match &groups {
-        Some(groups) => made.classify(groups, &ridges, &watch),
-        None => {
-            made.out.undecided =
-                search.open.iter().map(|pair| region(pair.low, pair.high)).collect()
+        if watch.stops(0) {
+            made.unseen_tip(tip);
+        } else {
+            made.tip(tip, [a, b]);
         }
     }
-    watch.phase()?;
+    match clusters(&search, &watch) {
+        Some(groups) => made.classify(&groups, &ridges, &watch),
+        None => made.list(),
+    }
+    watch.phase();
     for place in points {
         let place = made.point(place);
         made.out.contacts.push(Contact {
@@ -334,15 +358,19 @@ pub fn intersect(
     }
     made.join_at_tips();
     made.swallow();
-    watch.phase()?;
-    for rim in rims(&search, chord, &watch) {
+    watch.phase();
+    let rims = if watch.stopped() { Vec::new() } else { rims(&search, chord, &watch) };
+    // Borders of areas that were followed in part say nothing: the areas are listed.
+    for rim in rims.into_iter().filter(|_| !watch.stopped()) {
         made.push(rim.places.iter().map(|place| place.at), [rim.stop; 2], None);
         if let Some(branch) = made.out.branches.last_mut() {
             branch.bounds_overlap = true;
         }
     }
-    watch.phase()?;
-    made.out.is_proven = settled(&made.out);
+    watch.phase();
+    made.out.stopped = watch.stopped();
+    made.out.rounding = search.error / frames.scale;
+    made.out.is_proven = settled(&made.out) && made.out.holds(options.tolerance);
     Ok(made.out)
 }
 

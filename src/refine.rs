@@ -18,8 +18,8 @@
 mod curve;
 mod surface;
 
-pub use curve::{CurveJets, foot_on_curve};
-pub use surface::{SurfaceJets, foot_on_surface};
+pub use curve::{CurveJets, foot_on_curve, land_on_curve};
+pub use surface::{SurfaceJets, foot_on_surface, land_on_surface};
 
 /// Which local iteration is used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -44,8 +44,30 @@ const STEPS: u32 = 40;
 const STEPS_FIRST_ORDER: u32 = 200;
 /// A parameter step below this share of the box is the last one: the next would be below its square.
 const LAST_STEP: f64 = 3e-9;
+/// So is a longer one, up to this share, when the step before tells that the next would be rounding.
+const MOST_LAST: f64 = 1e-6;
+const ROUNDING: f64 = 1e-16;
 /// A parameter step below this share of the parameter (of the box, on surfaces) is rounding.
 const NO_STEP: f64 = 4e-16;
+
+/// Where an iteration has ended.
+pub struct Landing<P, J> {
+    /// The foot.
+    pub at: P,
+    /// The last place that was looked at, which is `at` or where the last step began, and the jet there.
+    pub seen: P,
+    /// See `seen`.
+    pub jet: J,
+    /// Jets taken.
+    pub taken: u32,
+}
+
+/// Whether a step of second order (as a share of the box) is the last one, after a whole one of second order: with errors
+/// that go like squares the next is `size^3 / before^2`.
+fn is_last(size: f64, before: Option<f64>) -> bool {
+    let next = |before: f64| size * size * size <= ROUNDING * before * before;
+    size <= LAST_STEP || size <= MOST_LAST && before.is_some_and(next)
+}
 
 impl Method {
     fn steps(self) -> u32 {

@@ -4,7 +4,7 @@ mod known_shapes;
 
 use footpoint::curve::Curve;
 use footpoint::index::IndexedCurve;
-use footpoint::intersect::{CurveHits, HitOptions, Nature};
+use footpoint::intersect::{CurveHits, HitOptions, Nature, Quadric};
 use known_shapes::{Random, Vector, circle, cylinder, figure_eight, norm, sphere, sub, torus};
 
 fn line(a: Vector, b: Vector) -> IndexedCurve {
@@ -202,12 +202,69 @@ fn a_circle_meets_a_torus_and_a_cylinder() {
 }
 
 #[test]
-fn a_spent_budget_says_what_is_open_and_a_stop_is_a_stop() {
+fn a_spent_budget_says_what_is_open() {
     let unit = circle(0.0, 1.0, 1.0);
     let options = HitOptions { budget: 10, ..HitOptions::default() };
     let hits = unit.meet_curve(&unit, &options, &mut || false).unwrap();
-    assert!(!hits.is_complete());
-    assert!(unit.meet_curve(&unit, &HitOptions::default(), &mut || true).is_err());
+    assert!(!hits.is_complete() && !hits.stopped);
+}
+
+/// Whether all hits of `whole` are in `part` or in a box that it lists, each parameter in its own place.
+fn check_part(whole: &CurveHits, part: &CurveHits, text: &str) {
+    for hit in &whole.hits {
+        let is_told = |other: &footpoint::intersect::CurveHit| {
+            (other.w - hit.w).abs() < 1e-6 && (other.u - hit.u).abs() < 1e-6
+        };
+        let holds = |b: &[f64; 6]| {
+            [hit.u, hit.v, hit.w]
+                .iter()
+                .enumerate()
+                .all(|(k, x)| b[2 * k] - 1e-9 <= *x && *x <= b[2 * k + 1] + 1e-9)
+        };
+        assert!(
+            part.hits.iter().any(is_told) || part.undecided.iter().any(holds),
+            "{text}: {hit:?} is lost"
+        );
+    }
+}
+
+#[test]
+fn a_stop_or_a_budget_gives_what_was_found_and_lists_the_rest() {
+    let (eight, line) = (figure_eight(24), line([-1.2, -0.3, 0.0], [1.2, 0.31, 0.0]));
+    let (ring, rod) = (torus(), self::line([-4.0, 0.1, 0.05], [4.0, 0.2, 0.1]));
+    let plane = Quadric::plane([0.1, 0.0, 0.0], [1.0, 0.2, 0.0]).unwrap();
+    type Ask<'a> = &'a dyn Fn(&HitOptions, &mut dyn FnMut() -> bool) -> CurveHits;
+    let asks: [(&str, Ask); 4] = [
+        ("eight, line", &|o, poll| eight.meet_curve(&line, o, poll).unwrap()),
+        ("eight, itself", &|o, poll| eight.meet_curve(&circle(0.0, 1.0, 0.6), o, poll).unwrap()),
+        ("torus, rod", &|o, poll| ring.meet_curve(&rod, o, poll).unwrap()),
+        ("eight, plane", &|o, poll| eight.meet_quadric(&plane, o, poll).unwrap()),
+    ];
+    let (mut some, mut all) = (0, 0);
+    for (name, ask) in asks {
+        let mut asked = 0;
+        let whole = ask(&HitOptions::default(), &mut || {
+            asked += 1;
+            false
+        });
+        assert!(whole.is_complete() && !whole.hits.is_empty(), "{name}");
+        for n in (1..=asked).step_by((asked as usize).div_ceil(30)) {
+            let mut questions = 0;
+            let part = ask(&HitOptions::default(), &mut || {
+                questions += 1;
+                questions >= n
+            });
+            assert!(part.stopped && questions == n, "{name}: {questions} of {n}");
+            check_part(&whole, &part, &format!("{name}, question {n} of {asked}"));
+            some += usize::from(!part.hits.is_empty() && !part.is_complete());
+            all += 1;
+        }
+        for budget in [1, 5, 20, 60] {
+            let part = ask(&HitOptions { budget, ..HitOptions::default() }, &mut || false);
+            check_part(&whole, &part, &format!("{name}, budget {budget}"));
+        }
+    }
+    assert!(some > 5 && all > 20, "{some} of {all}");
 }
 
 /// A part of a curve has the hits of the whole that lie in it, at the whole's parameters; a hit on its end counts.

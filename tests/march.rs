@@ -3,7 +3,9 @@
 mod march_shapes;
 
 use footpoint::index::IndexedSurface;
-use footpoint::march::{Branch, ContactKind, End, Intersection, MarchOptions, intersect};
+use footpoint::march::{
+    Branch, ContactKind, End, Intersection, MarchOptions, MarchPoint, distance_to_chord, intersect,
+};
 use footpoint::surface::Surface;
 use march_shapes::{Motion, P, bumps, cone, cylinder, lid, moved, plane, sphere, torus, z_to_x};
 
@@ -337,8 +339,9 @@ fn a_budget_that_ends_and_a_stop_are_honest() {
     let options = MarchOptions { budget: 40, ..MarchOptions::default() };
     let found = intersect(&a, &b, &options, &mut |_, _| false).unwrap();
     assert!(found.exhausted && !found.is_proven && !found.undecided.is_empty());
-    let stopped = intersect(&a, &b, &MarchOptions::default(), &mut |_, _| true);
-    assert_eq!(stopped.err(), Some(footpoint::error::Error::Cancelled));
+    let stopped = intersect(&a, &b, &MarchOptions::default(), &mut |_, _| true).unwrap();
+    assert!(stopped.stopped && !stopped.exhausted && !stopped.is_proven);
+    assert!(stopped.judged == 0 && stopped.branches.is_empty() && !stopped.undecided.is_empty());
     for chord in [-1.0, f64::NAN, f64::INFINITY] {
         let options = MarchOptions { chord, ..MarchOptions::default() };
         let refused = intersect(&a, &b, &options, &mut |_, _| false).unwrap_err();
@@ -346,34 +349,159 @@ fn a_budget_that_ends_and_a_stop_are_honest() {
     }
 }
 
+/// Whether all that `whole` has is in `part`, or in what it lists as undecided.
+fn check_part(whole: &Intersection, part: &Intersection, text: &str) {
+    let holds = |range: &[f64; 8], p: &MarchPoint| {
+        let at = [p.uv[0], p.uv[1], p.st[0], p.st[1]];
+        (0..4).all(|q| range[2 * q] - 1e-9 <= at[q] && at[q] <= range[2 * q + 1] + 1e-9)
+    };
+    let apart = |p: P, q: P| (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>().sqrt();
+    let is_told = |p: &MarchPoint| {
+        let areas = part.undecided.iter().chain(&part.overlaps);
+        let contacts = part.contacts.iter();
+        areas.map(|area| &area.range).any(|range| holds(range, p))
+            || contacts.clone().any(|c| apart(c.place.point, p.point) <= 8.0 * c.radius + 1e-9)
+            || part.branches.iter().any(|branch| {
+                let chord = if branch.chord.is_finite() { branch.chord } else { 1e-2 };
+                let near = |w: &[MarchPoint]| {
+                    distance_to_chord(p.point, w[0].point, w[1].point) <= 1.01 * chord + 1e-9
+                };
+                branch.points.windows(2).any(near)
+            })
+    };
+    let points = whole.branches.iter().flat_map(|branch| &branch.points);
+    let missing = points.chain(whole.contacts.iter().map(|c| &c.place)).find(|p| !is_told(p));
+    assert!(missing.is_none(), "{text}: {missing:?} is lost");
+    assert!(!part.is_proven || part.branches.len() == whole.branches.len(), "{text}");
+}
+
 #[test]
-fn a_stop_counts_whenever_it_is_said() {
+fn a_stop_gives_what_was_found_and_lists_the_rest() {
     let turned = moved(&sphere(1.0), &z_to_x([0.0; 3]));
     let pairs = [
-        (torus(2.0, 0.5), level(0.1)),
-        (torus(2.0, 0.5), level(0.5)),
-        (cylinder(1.0, 2.0), cylinder(1.0, 1.0)),
-        (sphere(1.0), turned),
+        (torus(2.0, 0.5), level(0.1), 1e-3),
+        (bumps(4, |p| p), lid(4, 4.0 / 9.0 - 1e-4, |p| p), 1e-3),
+        (torus(2.0, 0.5), level(0.5), 1e-4),
+        (cylinder(1.0, 2.0), cylinder(1.0, 1.0), 0.0),
+        (sphere(1.0), turned, 0.0),
+        (sphere(1.0), level(1.0), 0.0),
     ];
-    for (a, b) in pairs {
+    let (mut partial, mut given) = (0, 0);
+    for (number, (a, b, chord)) in pairs.into_iter().enumerate() {
         let (a, b) = (IndexedSurface::new(a), IndexedSurface::new(b));
+        let options = MarchOptions { chord, ..MarchOptions::default() };
         let stopped_at = |n: usize| {
             let mut asked = 0;
-            let found = intersect(&a, &b, &MarchOptions::default(), &mut |_, _| {
+            let found = intersect(&a, &b, &options, &mut |_, _| {
                 asked += 1;
                 asked == n
             });
-            (found.err(), asked)
+            (found.unwrap(), asked)
         };
-        let (error, asked) = stopped_at(usize::MAX);
-        assert!(error.is_none() && asked > 0);
-        for n in (1..=asked).step_by(asked.div_ceil(8)).chain([asked]) {
-            assert_eq!(stopped_at(n), (Some(footpoint::error::Error::Cancelled), n));
+        let (whole, asked) = stopped_at(usize::MAX);
+        assert!(!whole.stopped && asked > 0);
+        for n in (1..=asked).step_by(asked.div_ceil(12)).chain([asked]) {
+            let (part, questions) = stopped_at(n);
+            let text = format!("pair {number}, question {n} of {asked}");
+            assert!(part.stopped && questions == n, "{text}: {questions} questions");
+            assert_eq!(part.exhausted, whole.exhausted, "{text}");
+            check_part(&whole, &part, &text);
+            let some = !part.branches.is_empty();
+            (partial, given) = (partial + usize::from(!part.is_proven), given + usize::from(some));
         }
+        // A budget that runs out at any pair is answered in the same way.
+        for k in 1..=24 {
+            let budget = (whole.judged * k / 25).max(1);
+            let options = MarchOptions { budget, ..options };
+            let part = intersect(&a, &b, &options, &mut |_, _| false).unwrap();
+            let text = format!("pair {number}, budget {budget} of {}", whole.judged);
+            assert!(part.exhausted && !part.stopped && part.judged == budget, "{text}");
+            assert!(!part.is_proven && !part.undecided.is_empty(), "{text}");
+            check_part(&whole, &part, &text);
+        }
+    }
+    assert!(partial > 20 && given > 20, "{partial} parts, {given} with branches");
+}
+
+/// A plane that comes as near to a sphere, or to its like, as `gap`: told apart by the arithmetic, and not within the tolerance.
+#[test]
+fn what_is_nearer_than_the_tolerance_touches_and_points_hold_it() {
+    let ask = |a: &Surface, b: &Surface, tolerance: f64| {
+        let [a, b] = [a, b].map(|s| IndexedSurface::new(s.clone()));
+        let options = MarchOptions { tolerance, ..MarchOptions::default() };
+        intersect(&a, &b, &options, &mut |_, _| false).unwrap()
+    };
+    // Above the top of a sphere by 1e-9: nothing; within 1e-7 a contact whose gap is that.
+    let (ball, above) = (sphere(1.0), level(1.0 + 1e-9));
+    let apart = ask(&ball, &above, 0.0);
+    assert!(apart.is_proven && apart.branches.is_empty() && apart.contacts.is_empty());
+    let near = ask(&ball, &above, 1e-7);
+    assert_eq!((near.branches.len(), near.contacts.len()), (0, 1), "{:?}", near.contacts);
+    assert!(!near.is_proven && (near.contacts[0].gap - 1e-9).abs() < 1e-12);
+    // The same where the place is no pole of the sphere, and from inside: one loop to the arithmetic, a contact to the tolerance.
+    let turned = moved(&ball, &z_to_x([0.0; 3]));
+    for (height, loops) in [(1.0 + 1e-9, 0), (1.0 - 1e-9, 1)] {
+        let apart = ask(&turned, &level(height), 0.0);
+        assert!(apart.is_proven && apart.branches.len() == loops, "{height}: {:?}", apart.branches);
+        let near = ask(&turned, &level(height), 1e-7);
+        assert!(near.branches.is_empty() && !near.is_proven, "{height}");
+        let [contact] = &near.contacts[..] else { panic!("{:?}", near.contacts) };
+        assert_eq!(contact.kind, ContactKind::Touching);
+        assert!((contact.gap - 1e-9).abs() < 1e-12 && near.undecided.is_empty(), "{height}");
+    }
+    let far = ask(&turned, &level(1.0 + 1e-6), 1e-7);
+    assert!(far.is_proven && far.contacts.is_empty());
+    // What crosses at an angle, or is deeper than the tolerance, is what it is without one.
+    let crossing = [
+        (ball.clone(), level(1.0 - 1e-4)),
+        (turned.clone(), level(1.0 - 1e-4)),
+        (torus(2.0, 0.5), level(0.1)),
+        (torus(2.0, 0.5), cylinder(2.0, 1.0)),
+        (bumps(4, |p| p), lid(4, 4.0 / 9.0 - 1e-4, |p| p)),
+        (bumps(4, |p| p), lid(4, 4.0 / 9.0 + 1e-4, |p| p)),
+    ];
+    for (number, (a, b)) in crossing.iter().enumerate() {
+        let (without, with) = (ask(a, b, 0.0), ask(a, b, 1e-7));
+        assert!(without.is_proven && with.is_proven, "{number}: {:?}", with.undecided);
+        assert_eq!(without.branches.len(), with.branches.len(), "{number}");
+        println!("{number}: {} pairs, {} with a tolerance", without.judged, with.judged);
+        // One that is as great as what they are: not told apart, and not said to be.
+        for tolerance in [1e-5, 1e-3, 1e-2] {
+            let with = ask(a, b, tolerance);
+            let same = with.branches.len() == without.branches.len();
+            println!(
+                "{number}: {tolerance:e}: {} branches, {}",
+                with.branches.len(),
+                with.is_proven
+            );
+            let listed = with.contacts.len() + with.undecided.len() + with.overlaps.len();
+            assert!(if with.is_proven { same } else { listed > 0 }, "{number}: {tolerance:e}");
+        }
+    }
+    // Planes 1e-9 apart are none to the arithmetic, one to the tolerance.
+    let (a, b) = (level(0.2), level(0.2 + 1e-9));
+    let apart = ask(&a, &b, 0.0);
+    assert!(apart.is_proven && apart.overlaps.is_empty());
+    let same = ask(&a, &b, 1e-7);
+    assert!(!same.overlaps.is_empty() && same.branches.iter().all(|b| b.bounds_overlap));
+    assert!(same.branches.iter().all(|b| b.gap <= 1e-7));
+    // A tolerance that no arithmetic holds is not said to hold.
+    let (ring, plane) = (torus(2.0, 0.5), level(0.1));
+    for (tolerance, holds) in [(1e-9, true), (1e-12, true), (1e-17, false)] {
+        let found = ask(&ring, &plane, tolerance);
+        assert_eq!(found.branches.len(), 2);
+        assert_eq!(found.is_proven, holds, "{tolerance:e}, {:e}", found.rounding);
+        let worst = found.branches.iter().map(|b| b.gap + found.rounding).fold(0.0, f64::max);
+        assert_eq!(worst <= tolerance, holds, "{tolerance:e}: {worst:e}");
+    }
+    for tolerance in [-1.0, f64::NAN, f64::INFINITY] {
+        let options = MarchOptions { tolerance, ..MarchOptions::default() };
+        let [x, y] = [&ring, &plane].map(|s| IndexedSurface::new(s.clone()));
+        let refused = intersect(&x, &y, &options, &mut |_, _| false).unwrap_err();
+        assert!(refused.to_string().starts_with("tolerance"));
     }
 }
 
-/// Loops of the small-loop test: exactly `n`, proven, each around a bump of its own, as large as the gap says.
 fn check_loops(n: usize, gap: f64, lift: impl Fn(P) -> P + Copy) {
     let a = IndexedSurface::new(bumps(n, lift));
     let b = IndexedSurface::new(lid(n, 4.0 / 9.0 - gap, lift));

@@ -118,8 +118,10 @@ fn a_fit_that_misses_its_tolerance_is_no_worse_than_the_chords() {
     }
 }
 
-/// Stops `ask` at each of its questions in turn, at most forty of them; returns how many there were.
+/// Stops `ask` at each of its questions in turn, at most forty of them; returns how many there were. `is_stopped`: whether an answer says
+/// that it is that of a stop; without one a stop must be an error.
 fn stopped_everywhere<T>(
+    is_stopped: Option<fn(&T) -> bool>,
     ask: impl Fn(&mut dyn FnMut(u64, u64) -> bool) -> Result<T, Error>,
 ) -> u64 {
     let mut count = 0;
@@ -127,7 +129,7 @@ fn stopped_everywhere<T>(
         count += 1;
         false
     });
-    assert!(whole.is_ok());
+    assert!(whole.is_ok_and(|whole| is_stopped.is_none_or(|is_stopped| !is_stopped(&whole))));
     for at in (0..count).step_by((count as usize).div_ceil(40)) {
         let mut asked = 0;
         let stopped = ask(&mut |_, _| {
@@ -135,7 +137,10 @@ fn stopped_everywhere<T>(
             asked += 1;
             asked > at
         });
-        assert_eq!(stopped.err(), Some(Error::Cancelled), "question {at} of {count}");
+        match is_stopped {
+            Some(is_stopped) => assert!(stopped.is_ok_and(|part| is_stopped(&part))),
+            None => assert_eq!(stopped.err(), Some(Error::Cancelled), "question {at} of {count}"),
+        }
     }
     count
 }
@@ -155,18 +160,22 @@ fn every_phase_asks_whether_to_stop() {
         let options = MarchOptions { chord, ..MarchOptions::default() };
         let (a, b) = (indexed(&a), indexed(&b));
         let judged = intersect(&a, &b, &options, &mut |_, _| false).unwrap().judged;
-        let asked = stopped_everywhere(|poll| intersect(&a, &b, &options, poll));
+        let asked = stopped_everywhere(Some(|f: &Intersection| f.stopped), |poll| {
+            intersect(&a, &b, &options, poll)
+        });
         // One question in 256 pairs, and one at least: the others come from what is done with them.
         assert!(asked > judged / 256 + 2, "{asked} questions, {judged} pairs");
     }
     let faces = [cylinder(1.0, 2.0), across].map(|s| TrimmedSurface::whole(s.into()).unwrap());
     let options = MarchOptions { chord: 1e-5, ..MarchOptions::default() };
-    stopped_everywhere(|poll| intersect_faces(&faces[0], &faces[1], &options, poll));
+    stopped_everywhere(Some(|f: &Intersection| f.stopped), |poll| {
+        intersect_faces(&faces[0], &faces[1], &options, poll)
+    });
     let found = intersect_faces(&faces[0], &faces[1], &options, &mut |_, _| false).unwrap();
     let cuts = cuts_of(&found, false).unwrap();
-    assert!(stopped_everywhere(|poll| split(&faces[0], &cuts, 1e-6, poll)) > 0);
+    assert!(stopped_everywhere(None, |poll| split(&faces[0], &cuts, 1e-6, poll)) > 0);
     let (a, b) = (cylinder(1.0, 2.0), level(0.3));
     let branch = &meet(&a, &b).branches[0];
     let (a, b) = (indexed(&a), indexed(&b));
-    assert!(stopped_everywhere(|poll| curves(&a, &b, &branch.points, 1e-8, poll)) > 1);
+    assert!(stopped_everywhere(None, |poll| curves(&a, &b, &branch.points, 1e-8, poll)) > 1);
 }

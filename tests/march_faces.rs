@@ -10,7 +10,7 @@ use footpoint::index::IndexedSurface;
 use footpoint::march::curves::curves;
 use footpoint::march::faces::intersect_faces;
 use footpoint::march::split::{Cut, cuts_of, split};
-use footpoint::march::{End, Intersection, MarchOptions};
+use footpoint::march::{End, Intersection, MarchOptions, MarchPoint, distance_to_chord};
 use footpoint::pcurve::Pcurve;
 use footpoint::surface::Surface;
 use footpoint::trim::{Coedge, Loop, Support, TrimmedSurface};
@@ -83,6 +83,55 @@ fn a_circle_that_a_trim_cuts_is_an_arc_with_ends_on_the_trim() {
     let found = meet(&whole(sphere(1.0)), &face.unwrap());
     assert!(found.is_proven && found.branches.len() == 2);
     assert!(found.branches.iter().all(|b| b.ends == [End::Trim(1); 2]));
+}
+
+/// Stops at each question: what both faces hold is in a branch or a box, and what one of them does not hold is in no branch beyond a box.
+#[test]
+fn a_stop_while_branches_are_cut_at_trims_loses_nothing_and_claims_nothing() {
+    let ball = whole(sphere(1.0));
+    let mut cut_in_part = 0;
+    for is_hole in [false, true] {
+        let disc = disc(0.3, 1.0, 0.5, is_hole);
+        let options = MarchOptions { chord: 1e-4, ..MarchOptions::default() };
+        let stopped_at = |n: usize| {
+            let mut asked = 0;
+            let found = intersect_faces(&ball, &disc, &options, &mut |_, _| {
+                asked += 1;
+                asked == n
+            });
+            (found.unwrap(), asked)
+        };
+        let (whole, asked) = stopped_at(usize::MAX);
+        assert!(whole.is_proven && !whole.stopped && asked > 4, "{asked} questions");
+        for n in 1..=asked {
+            let (part, questions) = stopped_at(n);
+            assert!(part.stopped && questions == n, "question {n} of {asked}");
+            let holds = |p: &MarchPoint| {
+                let at = [p.uv[0], p.uv[1], p.st[0], p.st[1]];
+                part.undecided.iter().any(|box_of| {
+                    let r = box_of.range;
+                    (0..4).all(|q| r[2 * q] - 1e-9 <= at[q] && at[q] <= r[2 * q + 1] + 1e-9)
+                })
+            };
+            let near = |p: &MarchPoint| {
+                part.branches.iter().any(|branch| {
+                    let far = |w: &[MarchPoint]| distance_to_chord(p.point, w[0].point, w[1].point);
+                    branch.points.windows(2).any(|w| far(w) <= 1.01 * branch.chord + 1e-9)
+                })
+            };
+            let lost = whole.branches[0].points.iter().find(|p| !holds(p) && !near(p));
+            assert!(lost.is_none(), "question {n} of {asked}: {lost:?} is lost");
+            for p in part.branches.iter().flat_map(|branch| &branch.points) {
+                let inside = ((p.point[0] - 0.5).hypot(p.point[1]) < 1.0 + 1e-9) != is_hole;
+                let rim = ((p.point[0] - 0.5).hypot(p.point[1]) - 1.0).abs() < 1e-9;
+                assert!(inside || rim || holds(p), "question {n} of {asked}: {p:?} is cut off");
+            }
+            assert!(!part.undecided.is_empty() || part.is_proven, "question {n} of {asked}");
+            let ends = part.branches.iter().flat_map(|branch| branch.ends);
+            cut_in_part += usize::from(ends.into_iter().any(|end| end == End::Undecided));
+        }
+    }
+    assert!(cut_in_part > 0);
 }
 
 #[test]

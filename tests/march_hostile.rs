@@ -92,7 +92,8 @@ fn sheet(r: &mut Random, spread: f64, weights: f64) -> Surface {
 }
 
 fn meet(a: &Surface, b: &Surface, motion: &Motion) -> Intersection {
-    let options = MarchOptions { chord: 1e-3 * motion.factor, budget: 300_000 };
+    let options =
+        MarchOptions { chord: 1e-3 * motion.factor, budget: 300_000, ..MarchOptions::default() };
     intersect(&motion.surface(a), &motion.surface(b), &options, &mut |_, _| false).unwrap()
 }
 
@@ -358,7 +359,7 @@ fn each_position(terms: &[(usize, usize, f64)], budget: u64, check: impl Fn(&Int
     let whole = polynomial(6, &[&base[..], terms].concat());
     for (shift, motion) in [(0.0, Random(5).motion(1.0, 1.0)), (0.137, Motion::NONE)] {
         let a = if shift > 0.0 { part(&whole, shift) } else { whole.clone() };
-        let options = MarchOptions { chord: 1e-3, budget };
+        let options = MarchOptions { chord: 1e-3, budget, ..MarchOptions::default() };
         let (x, y) = (motion.surface(&a), motion.surface(&b));
         let found = intersect(&x, &y, &options, &mut |_, _| false).unwrap();
         let value = |p: P| {
@@ -386,7 +387,8 @@ fn tiny_surfaces_beside_large_ones_lose_nothing() {
         let level = plane([-1.0; 3], [2.0, 0.1, 0.0], [0.0, 2.0, 1.0]);
         let a = moved(&[sphere(1.0), torus(1.0, 0.4), level][r.below(3)], &place);
         let motion = r.motion(1.0, 0.0);
-        let options = MarchOptions { chord: 1e-3 * size, budget: 300_000 };
+        let options =
+            MarchOptions { chord: 1e-3 * size, budget: 300_000, ..MarchOptions::default() };
         let (p, q) = (motion.surface(&a), motion.surface(&b));
         let found = intersect(&p, &q, &options, &mut |_, _| false).unwrap();
         let seen = audit(&format!("round {round}"), &a, &found, &motion, 80, size, over(&b));

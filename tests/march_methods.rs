@@ -8,7 +8,7 @@ use footpoint::march::correct::{Corrector, correct};
 use footpoint::march::curves::{curves, reduced};
 use footpoint::march::follow::{WalkEnd, follow};
 use footpoint::march::triangles::{Polyline, meshed, subdivided};
-use footpoint::march::{MarchOptions, intersect};
+use footpoint::march::{MarchOptions, MarchPoint, intersect, named};
 use footpoint::surface::Surface;
 use march_shapes::{P, bumps, cylinder, lid, moved, plane, sphere, torus, z_to_x};
 
@@ -165,7 +165,7 @@ fn marching_finds_the_branch_of_its_start() {
         for branch in &whole.branches {
             let p = branch.points[branch.points.len() / 3];
             let start = [p.uv[0], p.uv[1], p.st[0], p.st[1]];
-            let walk = follow(&a, &b, start, corrector, 0.05, 1e-3).unwrap();
+            let walk = follow(&a, &b, start, corrector, 0.05, 1e-3, &mut || false).unwrap();
             // The walk ends at the seams of the torus, the branch goes on.
             assert!(
                 walk.ends.iter().all(|end| matches!(end, WalkEnd::Border | WalkEnd::Closed)),
@@ -187,8 +187,8 @@ fn marching_finds_the_branch_of_its_start() {
         &mut |_, _| false,
     );
     let p = top.unwrap().branches[0].points[3];
-    let walk =
-        follow(&a, &b, [p.uv[0], p.uv[1], p.st[0], p.st[1]], Corrector::Auto, 0.01, 1e-4).unwrap();
+    let start = [p.uv[0], p.uv[1], p.st[0], p.st[1]];
+    let walk = follow(&a, &b, start, Corrector::Auto, 0.01, 1e-4, &mut || false).unwrap();
     assert_eq!(walk.ends, [WalkEnd::Closed; 2]);
     assert!(walk.places.len() > 12 && walk.places.len() < 400);
 }
@@ -204,9 +204,10 @@ fn length(line: &Polyline) -> f64 {
 fn discrete_methods_find_the_same_curves_coarsely() {
     let (a, b) = (sphere(1.0), plane([-3.0, -3.1, 0.3], [6.0, 0.0, 0.0], [0.0, 6.2, 0.0]));
     let want = 2.0 * std::f64::consts::PI * 0.91f64.sqrt();
-    let depth = subdivided(&a, &b, 8, None, 1_000_000);
-    let flat = subdivided(&a, &b, 0, Some(1e-2), 1_000_000);
-    let mesh = meshed(&a, &b, 40);
+    let go_on = &mut |_: u64, _: u64| false;
+    let depth = subdivided(&a, &b, 8, None, 1_000_000, go_on).lines;
+    let flat = subdivided(&a, &b, 0, Some(1e-2), 1_000_000, go_on).lines;
+    let mesh = meshed(&a, &b, 40, go_on).unwrap().lines;
     for (name, lines) in [("depth", &depth), ("flat", &flat), ("mesh", &mesh)] {
         let total: f64 = lines.iter().map(length).sum();
         println!(
@@ -222,6 +223,59 @@ fn discrete_methods_find_the_same_curves_coarsely() {
         }
     }
     assert!(mesh.len() == 1, "{} lines", mesh.len());
+}
+
+/// Each method of the named module beside the search that proves: the same loop, coarsely or not; what a stop leaves.
+#[test]
+fn methods_by_name_give_the_branch_of_the_search_and_claim_nothing() {
+    let (a, b) = (sphere(1.0), plane([-3.0, -3.1, 0.3], [6.0, 0.0, 0.0], [0.0, 6.2, 0.0]));
+    let options = MarchOptions { chord: 1e-3, ..MarchOptions::default() };
+    let [x, y] = [&a, &b].map(|s| IndexedSurface::new(s.clone()));
+    let proven = intersect(&x, &y, &options, &mut |_, _| false).unwrap();
+    let p = proven.branches[0].points[2];
+    let start = [p.uv[0] + 1e-3, p.uv[1], p.st[0], p.st[1] - 1e-3];
+    let all = |poll: &mut dyn FnMut(u64, u64) -> bool| {
+        let marched = named::by_marching(&a, &b, start, Corrector::Maf, 0.0, &options, poll);
+        let marched = marched.unwrap().unwrap();
+        let at = |p: &MarchPoint| [p.uv[0], p.uv[1], p.st[0], p.st[1]];
+        let coarse: Vec<[f64; 4]> = marched.branches[0].points.iter().step_by(9).map(at).collect();
+        let bisected = (coarse.len() > 1).then(|| {
+            let made = named::by_bisection(&a, &b, &coarse, Corrector::Auto, &options, poll);
+            made.unwrap().unwrap()
+        });
+        let subdivided = named::by_subdivision(&a, &b, 4, &options, poll).unwrap();
+        let flat = named::by_subdivision(&a, &b, 0, &options, poll).unwrap();
+        let meshed = named::by_mesh(&a, &b, 50, poll).unwrap();
+        (vec![subdivided, flat, meshed, marched], bisected)
+    };
+    let (found, bisected) = all(&mut |_, _| false);
+    let radius = 0.91f64.sqrt();
+    for (k, made) in found.iter().chain(&bisected).enumerate() {
+        assert!(!made.is_proven && !made.stopped && made.undecided.len() == 1, "method {k}");
+        assert!(!made.branches.is_empty(), "method {k}");
+        let want = if k < 3 { 2e-2 } else { 1e-8 };
+        for p in made.branches.iter().flat_map(|branch| &branch.points) {
+            let off = (p.point[0].hypot(p.point[1]) - radius).abs().max((p.point[2] - 0.3).abs());
+            assert!(off < want, "method {k}: {off:e}");
+        }
+        let gap = made.branches.iter().map(|branch| branch.gap).fold(0.0, f64::max);
+        assert!(gap < 4.0 * want && (k >= 3 || gap > 1e-6), "method {k}: {gap:e}");
+    }
+    let whole = found[2].branches.iter().filter(|branch| branch.is_closed()).count();
+    assert_eq!((found[2].branches.len(), whole), (1, 1), "the mesh has one loop");
+    for made in all(&mut |_, _| true).0 {
+        assert!(made.stopped && !made.is_proven && made.undecided.len() == 1);
+    }
+    // A budget that runs out is told; what is none is refused.
+    let few = MarchOptions { budget: 20, ..options };
+    assert!(named::by_subdivision(&a, &b, 4, &few, &mut |_, _| false).unwrap().exhausted);
+    assert!(named::by_subdivision(&a, &b, 21, &options, &mut |_, _| false).is_err());
+    assert!(named::by_mesh(&a, &b, 1025, &mut |_, _| false).is_err());
+    let far = [0.5, 0.99, 0.01, 0.01];
+    let held = Corrector::NewtonThree(1);
+    let lost = named::by_marching(&a, &b, far, held, 0.0, &options, &mut |_, _| false);
+    assert!(lost.unwrap().is_none());
+    assert!(named::by_bisection(&a, &b, &[start], held, &options, &mut |_, _| false).is_err());
 }
 
 #[test]
@@ -312,7 +366,8 @@ fn random_sheets_give_the_same_branches_in_either_order_and_hold_all_that_a_mesh
         assert_eq!(shape(&found), shape(&swapped), "round {round}");
         total += found.branches.len();
         let apart = |p: P, q: P| (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>().sqrt();
-        for node in meshed(&a, &b, 48).iter().flatten().step_by(3) {
+        let mesh = meshed(&a, &b, 48, &mut |_, _| false).unwrap().lines;
+        for node in mesh.iter().flatten().step_by(3) {
             // What the mesh sees may lie just beyond a border: then there is nothing to correct to.
             let Some(place) = correct(&a, &b, node.at, Corrector::NewtonFour, 1e-10, None) else {
                 continue;
@@ -350,7 +405,7 @@ fn bisection_makes_a_coarse_walk_as_fine_as_asked() {
             points.iter().map(|p| [p.uv[0], p.uv[1], p.st[0], p.st[1]]).collect();
         let (mut before, mut counts) = (places.len(), Vec::new());
         for chord in [1e-2, 1e-3, 1e-4] {
-            let fine = refined(&a, &b, &places, Corrector::Auto, chord).unwrap();
+            let fine = refined(&a, &b, &places, Corrector::Auto, chord, &mut || false).unwrap();
             assert!(fine.len() >= before);
             assert!(fine.iter().all(|at| off(a.evaluate(at[0], at[1])) < 1e-2 * chord + 1e-12));
             (before, counts) = (fine.len(), [counts, vec![fine.len()]].concat());
@@ -366,7 +421,7 @@ fn bisection_makes_a_coarse_walk_as_fine_as_asked() {
         assert!(counts[2] < 6 * counts[1] && counts[2] > counts[1], "{counts:?}");
     }
     let far = [[0.1, 0.2, 0.3, 0.4], [0.6, 0.7, 0.9, 0.1]];
-    assert!(refined(&a, &b, &far, Corrector::NewtonThree(0), 1e-12).is_none());
+    assert!(refined(&a, &b, &far, Corrector::NewtonThree(0), 1e-12, &mut || false).is_none());
 }
 
 /// A step of four parameters that is cut off at the borders, as textbooks have it: no parameter is held.

@@ -6,7 +6,7 @@ mod cases;
 mod known_shapes;
 
 use footpoint::index::IndexedSurface;
-use footpoint::intersect::{CastMemory, Caster, Hit, Ray, ray_flag};
+use footpoint::intersect::{CastMemory, Caster, Hit, Ray, RayHits, ray_flag};
 use known_shapes::{Random, Vector, cylinder, dot, norm, sphere, sub, torus};
 use std::sync::Arc;
 
@@ -191,6 +191,20 @@ fn batches_have_the_same_bits_for_any_number_of_threads() {
     let stopped =
         caster.first_hits(&|k| rays[k], &mut vec![Hit::none(0); 3_000], 1, &mut |done| done > 500);
     assert!(stopped.is_err());
+    // What a stop leaves: hits of the rays that were cast, the others are not proven. Also between the two casts of a ray.
+    for after in [0, 500, 2_999, 3_000] {
+        let part = caster.all_hits(&|k| rays[k], rays.len(), 1, &mut |done| done >= after).unwrap();
+        assert!(part.stopped && part.starts.len() == rays.len() + 1);
+        let mut missing = 0;
+        for k in 0..rays.len() {
+            let of = |list: &RayHits| list.hits[list.starts[k]..list.starts[k + 1]].to_vec();
+            let (got, want) = (of(&part), of(&all));
+            let is_whole = part.flags[k] & ray_flag::NOT_PROVEN == 0;
+            assert!(if is_whole { got == want } else { got.len() <= 1 && got.len() <= want.len() });
+            missing += usize::from(!is_whole);
+        }
+        assert!(missing > 0 && (after == 0 || missing < rays.len()), "{after}: {missing}");
+    }
 }
 
 #[test]

@@ -439,7 +439,16 @@ fn a_stack_of_planes_is_the_planes_one_by_one_for_any_number_of_threads() {
         let together = shape.sections(&planes, &options, threads, &mut |_| false).unwrap();
         assert_eq!(together, alone);
     }
-    assert!(shape.sections(&planes, &options, 2, &mut |_| true).is_err());
+    // A stop after some of them: those are given, of the others the whole domain is undecided.
+    for (threads, after) in [(1, 0), (1, 7), (3, 7)] {
+        let part = shape.sections(&planes, &options, threads, &mut |done| done >= after).unwrap();
+        assert_eq!(part.len(), planes.len());
+        let whole: Vec<bool> = part.iter().zip(&alone).map(|(p, a)| !p.stopped && p == a).collect();
+        assert!(whole.iter().filter(|&&is| is).count() >= after && whole.contains(&false));
+        for (section, is) in part.iter().zip(whole) {
+            assert!(is || section.stopped && !section.is_complete());
+        }
+    }
 }
 
 #[test]
@@ -466,7 +475,58 @@ fn a_spent_budget_lists_what_is_open() {
     let plane = Quadric::plane([0.0, 0.0, 0.0], [0.25, 0.0, 0.968_245_836_551_854_3]).unwrap();
     let section = torus().section(&plane, &options, &mut || false).unwrap();
     assert!(!section.is_complete());
-    assert!(torus().section(&plane, &options, &mut || true).is_err());
+    assert!(!section.stopped);
+    let none = torus().section(&plane, &options, &mut || true).unwrap();
+    assert!(none.stopped && !none.is_complete());
+    // Corners of patches at which branches were not looked for are no contacts: this plane has none.
+    assert!(none.contacts.is_empty());
+    for budget in 1..200 {
+        let options = SectionOptions { budget, ..SectionOptions::default() };
+        let section = torus().section(&plane, &options, &mut || false).unwrap();
+        assert!(section.contacts.is_empty(), "budget {budget}: {:?}", section.contacts);
+    }
+}
+
+#[test]
+fn a_stop_within_a_section_gives_the_branches_so_far_and_lists_the_rest() {
+    let (shape, options) = (torus(), SectionOptions { chord: 1e-3, ..SectionOptions::default() });
+    let plane = Quadric::plane([0.0, 0.0, 0.1], [0.3, 0.2, 1.0]).unwrap();
+    let mut asked = 0;
+    let mut count = || {
+        asked += 1;
+        false
+    };
+    let whole = shape.section(&plane, &options, &mut count).unwrap();
+    assert!(whole.contacts.is_empty() && whole.is_complete());
+    let mut partial = 0;
+    for n in 1..=asked {
+        let mut questions = 0;
+        let mut stop = || {
+            questions += 1;
+            questions == n
+        };
+        let part = shape.section(&plane, &options, &mut stop).unwrap();
+        assert!(part.stopped && questions == n);
+        partial += usize::from(!part.branches.is_empty() && !part.is_complete());
+        assert!(part.contacts.is_empty(), "question {n} of {asked}: {:?}", part.contacts);
+        for point in whole.branches.iter().flat_map(|branch| &branch.points) {
+            let near = |w: &[footpoint::intersect::BranchPoint]| {
+                let (to, along) = (sub(point.point, w[0].point), sub(w[1].point, w[0].point));
+                let share = (dot(to, along) / dot(along, along).max(1e-300)).clamp(0.0, 1.0);
+                norm([0, 1, 2].map(|k| to[k] - share * along[k])) <= 3e-3
+            };
+            let [u, v] = point.at;
+            let holds = |b: &[f64; 4]| {
+                b[0] - 1e-9 <= u && u <= b[1] + 1e-9 && b[2] - 1e-9 <= v && v <= b[3] + 1e-9
+            };
+            assert!(
+                part.undecided.iter().any(holds)
+                    || part.branches.iter().any(|branch| branch.points.windows(2).any(near)),
+                "question {n} of {asked}: {point:?} is lost"
+            );
+        }
+    }
+    assert!(partial > 0, "{asked} questions");
 }
 
 /// The sheet of [`bumps`] under the map x / (1 + a x): rational, with planes where planes were.

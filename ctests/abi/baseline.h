@@ -185,6 +185,20 @@ typedef enum fpt_branch_end {
     FPT_BRANCH_END_UNDECIDED = 3,
     FPT_BRANCH_END_TRIM = 4,
 } fpt_branch_end;
+typedef enum fpt_intersect_method {
+    FPT_INTERSECT_AUTO = 0,
+    FPT_INTERSECT_SUBDIVISION = 1,
+    FPT_INTERSECT_MESH = 2,
+} fpt_intersect_method;
+typedef enum fpt_corrector {
+    FPT_CORRECTOR_AUTO = 0,
+    FPT_CORRECTOR_NEWTON_HOLDS_U = 1,
+    FPT_CORRECTOR_NEWTON_HOLDS_V = 2,
+    FPT_CORRECTOR_NEWTON_HOLDS_S = 3,
+    FPT_CORRECTOR_NEWTON_HOLDS_T = 4,
+    FPT_CORRECTOR_NEWTON_FOUR = 5,
+    FPT_CORRECTOR_MAF = 6,
+} fpt_corrector;
 typedef enum fpt_section_end {
     FPT_SECTION_END_CLOSED = 0,
     FPT_SECTION_END_BORDER = 1,
@@ -645,6 +659,12 @@ typedef struct fpt_intersect_surfaces_options {
     int (*should_stop)(void *user);
     void (*progress)(void *user, size_t done, size_t total);
     void *user;
+    double tolerance;
+    uint32_t method;
+    uint32_t corrector;
+    uint32_t levels;
+    uint32_t reserved;
+    void (*trace)(void *user, uint32_t step, const double *uvst, double gap);
 } fpt_intersect_surfaces_options;
 typedef struct fpt_intersection_summary {
     size_t branch_count;
@@ -654,6 +674,8 @@ typedef struct fpt_intersection_summary {
     uint64_t pairs;
     uint32_t is_proven;
     uint32_t is_exhausted;
+    uint32_t is_stopped;
+    uint32_t reserved;
 } fpt_intersection_summary;
 typedef struct fpt_intersection_branch {
     size_t point_count;
@@ -2095,6 +2117,28 @@ fpt_status fpt_surface_intersection_split(const struct fpt_surface_intersection 
                                           struct fpt_trim **out_trims,
                                           size_t *out_count);
 void fpt_surface_intersection_free(struct fpt_surface_intersection *intersection);
+FPT_MUST_USE
+fpt_status fpt_intersect_correct(const struct fpt_surface *a,
+                                 const struct fpt_surface *b,
+                                 const double *uvst,
+                                 const struct fpt_intersect_surfaces_options *options,
+                                 struct fpt_intersection_point *out,
+                                 double *out_gap,
+                                 uint32_t *out_steps);
+FPT_MUST_USE
+fpt_status fpt_intersect_march(const struct fpt_surface *a,
+                               const struct fpt_surface *b,
+                               const double *uvst,
+                               double step,
+                               const struct fpt_intersect_surfaces_options *options,
+                               struct fpt_surface_intersection **out);
+FPT_MUST_USE
+fpt_status fpt_intersect_bisect(const struct fpt_surface *a,
+                                const struct fpt_surface *b,
+                                const double *uvst,
+                                size_t count,
+                                const struct fpt_intersect_surfaces_options *options,
+                                struct fpt_surface_intersection **out);
 void fpt_inspect_options_init(struct fpt_inspect_options *options, size_t struct_size);
 void fpt_inspect_picture_options_init(struct fpt_inspect_picture_options *options,
                                       size_t struct_size);

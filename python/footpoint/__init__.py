@@ -14,10 +14,11 @@ from ._library import Cancelled, abi_version, version
 from ._scene import NO_MEMBER, Scene
 from ._shapes import Curve, Surface
 from .convert import from_freecad, from_geomdl, from_occ, from_splinepy
-from .intersection import BranchEnd, ContactKind, Intersection, intersect_surfaces, intersect_trims
+from .intersection import (BranchEnd, ContactKind, Corrector, IntersectMethod, Intersection, intersect_bisect, intersect_correct, intersect_march,
+                           intersect_surfaces, intersect_trims)
 
 __version__ = version()
-__all__ = ["BranchEnd", "Cancelled", "ContactKind", "Curve", "Face", "Feet", "Flag", "FootSet", "Intersection", "Kind",
+__all__ = ["BranchEnd", "Cancelled", "ContactKind", "Corrector", "Curve", "Face", "Feet", "Flag", "FootSet", "IntersectMethod", "Intersection", "Kind",
            "Method", "NO_MEMBER", "Nature", "NormalFlag", "PathChange", "Scene", "Scope", "Standing", "StandingFlag", "Surface",
            "abi_version", "construct", "convert", "draw", "fair", "from_freecad", "from_geomdl", "from_occ", "from_splinepy",
-           "inspect", "intersect", "intersect_surfaces", "intersect_trims", "operate", "pcurve", "trims", "version", "weights"]
+           "inspect", "intersect", "intersect_bisect", "intersect_correct", "intersect_march", "intersect_surfaces", "intersect_trims", "operate", "pcurve", "trims", "version", "weights"]

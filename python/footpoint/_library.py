@@ -16,6 +16,7 @@ ABI_VERSION = 1
 StopFunction = CFUNCTYPE(c_int, c_void_p)
 ProgressFunction = CFUNCTYPE(None, c_void_p, c_size_t, c_size_t)
 TraceFunction = CFUNCTYPE(None, c_void_p, c_size_t, c_uint32, c_double, c_double, c_double)
+CorrectionFunction = CFUNCTYPE(None, c_void_p, c_uint32, ctypes.POINTER(c_double), c_double)
 CurveFunction = CFUNCTYPE(c_int32, c_void_p, c_double, c_uint32, POINTER(c_double))
 SurfaceFunction = CFUNCTYPE(c_int32, c_void_p, c_double, c_double, c_uint32, POINTER(c_double))
 ReleaseFunction = CFUNCTYPE(None, c_void_p)
@@ -214,12 +215,13 @@ class FaceOptions(ctypes.Structure):
 
 class IntersectSurfacesOptions(ctypes.Structure):
     _fields_ = [("struct_size", c_size_t), ("chord", c_double), ("budget", c_uint64), ("should_stop", StopFunction),
-                ("progress", ProgressFunction), ("user", c_void_p)]
+                ("progress", ProgressFunction), ("user", c_void_p), ("tolerance", c_double), ("method", c_uint32), ("corrector", c_uint32),
+                ("levels", c_uint32), ("reserved", c_uint32), ("trace", CorrectionFunction)]
 
 
 class IntersectionSummary(ctypes.Structure):
     _fields_ = [("branch_count", c_size_t), ("contact_count", c_size_t), ("overlap_count", c_size_t), ("undecided_count", c_size_t),
-                ("pairs", c_uint64), ("is_proven", c_uint32), ("is_exhausted", c_uint32)]
+                ("pairs", c_uint64), ("is_proven", c_uint32), ("is_exhausted", c_uint32), ("is_stopped", c_uint32), ("reserved", c_uint32)]
 
 
 class IntersectionBranch(ctypes.Structure):
@@ -415,7 +417,7 @@ _STATUS = {
     "intersect_surfaces": "pppp", "surface_intersection_summary": "pp", "surface_intersection_branch": "pzp",
     "surface_intersection_points": "pzzp", "surface_intersection_contact": "pzp", "surface_intersection_overlap": "pzp",
     "surface_intersection_undecided": "pzp", "surface_intersection_curves": "pppzdzpppp", "intersect_trims": "pppp",
-    "surface_intersection_split": "ppIdpzpp",
+    "surface_intersection_split": "ppIdpzpp", "intersect_correct": "ppppppp", "intersect_march": "pppdpp", "intersect_bisect": "pppzpp",
     "fair_curve": "ppp", "fair_surface": "ppp", "fair_report_summary": "pp", "fair_report_energies": "pzp", "fair_report_curve": "pp",
     "fair_report_surface": "pp", "inspect_curve_range": "ppp", "inspect_surface_range": "pIpp", "inspect_surface_range_places": "pIppp", "inspect_comb": "ppzp",
     "inspect_curvatures": "ppzp", "inspect_monotone_pieces": "pp", "inspect_inflections": "ppp", "inspect_umbilics": "ppp",
@@ -449,9 +451,11 @@ OK, NULL_ARGUMENT, INVALID_ARGUMENT, BUDGET_EXHAUSTED, CANCELLED, UNSUPPORTED, O
 
 
 class Cancelled(RuntimeError):
-    """A call that `should_stop` ended. `feet` holds the records that were ready; the rest is NaN and marked not proven."""
+    """A call that `should_stop` ended. `feet` holds the records that were ready; the rest is NaN and marked not proven. `found` holds what an
+    intersection would have returned, with what was found by then; what was not looked at is undecided."""
 
     feet = None
+    found = None
 
 
 def _candidates() -> list[Path]:

@@ -249,14 +249,14 @@ class Call:
     def pointer(self) -> int:
         return ctypes.addressof(self.struct)
 
-    def finish(self, status: int, feet: Feet | None = None) -> None:
+    def finish(self, status: int, feet: Feet | None = None, found: Any = None) -> None:
         """Raises what a callback raised, or `Cancelled`; tells the last progress."""
         try:
             if self._heard.error is not None:
                 raise self._heard.error
             if status == lib.CANCELLED:
                 cancelled = lib.Cancelled("should_stop ended the call")
-                cancelled.feet = feet
+                cancelled.feet, cancelled.found = feet, found
                 raise cancelled
             if self._tell is not None and self._heard.done()[1]:
                 self._tell(*self._heard.done())
@@ -331,13 +331,32 @@ class IntersectSurfacesOptions(TypedDict, total=False):
     """The keywords of `intersect_surfaces`.
 
     chord        length: how far a branch may be from the chord between two of its points; 0: 1e-3 x the size of the smaller surface
+    tolerance    length: surfaces that are nearer touch where they are parallel; points of branches are within it of both surfaces, or the
+                 result is not proven; 0: what the arithmetic can tell
+    method       an `IntersectMethod`; the default proves
+    levels       of the methods that do not: how often both surfaces are quartered, 0: until flat; cells of the mesh along a direction, 0: 64
     budget       most pairs of parts; 0: 2,000,000
-    should_stop  called without arguments now and then; a true result ends the call with `Cancelled`
+    should_stop  called without arguments now and then; a true result ends the call with `Cancelled`, whose `found` has what was found
     progress     called with (judged, judged or waiting); True: a bar
     """
 
     chord: float
+    tolerance: float
+    method: int
+    levels: int
+    corrector: int
     budget: int
+    should_stop: "Callable[[], object] | None"
+    progress: "Callable[[int, int], object] | bool | None"
+
+
+class Listening(TypedDict, total=False):
+    """The keywords of calls that only ask and tell.
+
+    should_stop  called without arguments now and then; a true result ends the call with `Cancelled`
+    progress     called with (done, all that is known); True: a bar
+    """
+
     should_stop: "Callable[[], object] | None"
     progress: "Callable[[int, int], object] | bool | None"
 
@@ -406,5 +425,5 @@ _OPTIONS: dict[Any, tuple[str, Any]] = {
     lib.WeightsOptions: ("weights_options_init", WeightsOptions),
     lib.IntersectSurfacesOptions: ("intersect_surfaces_options_init", IntersectSurfacesOptions), lib.PullOptions: ("pull_options_init", PullOptions),
     lib.FairOptions: ("fair_options_init", FairOptions), lib.InspectOptions: ("inspect_options_init", InspectOptions)}
-_INTEGERS = {"method": 2**32 - 1, "scope": 2**32 - 1, "threads": 2**32 - 1, "budget": 2**64 - 1, "nearest": 2**63 - 1, "degree": 31,
+_INTEGERS = {"method": 2**32 - 1, "corrector": 2**32 - 1, "levels": 2**32 - 1, "scope": 2**32 - 1, "threads": 2**32 - 1, "budget": 2**64 - 1, "nearest": 2**63 - 1, "degree": 31,
              "pole_limit": 2**63 - 1, "steps": 2**32 - 1, "side": 2**32 - 1, "starts": 2**32 - 1, "seed": 2**64 - 1}

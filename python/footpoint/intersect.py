@@ -138,9 +138,13 @@ def _shape(name: str, shape: Any, kind: type) -> int:
     return shape._handle
 
 
-def _kept(status: int) -> None:
+def _kept(status: int, found: Any = None) -> Any:
+    """What was found; after a stop it is in the `Cancelled` that is raised."""
     if status == lib.CANCELLED:
-        raise lib.failure(status)
+        cancelled = lib.failure(status)
+        cancelled.found = found  # type: ignore[attr-defined]
+        raise cancelled
+    return found
 
 
 @dataclass(frozen=True)
@@ -158,7 +162,7 @@ class Hits:
 
 def _hits(name: str, first: int, second: Any, options: Any) -> Hits:
     out, count = ctypes.c_void_p(), ctypes.c_size_t()
-    _kept(lib.call(name, first, second, ctypes.addressof(options), ctypes.byref(out)))
+    status = lib.call(name, first, second, ctypes.addressof(options), ctypes.byref(out))
     try:
         lib.call("curve_hits_count", out, ctypes.byref(count))
         hits = np.zeros(count.value, HIT)
@@ -170,7 +174,7 @@ def _hits(name: str, first: int, second: Any, options: Any) -> Hits:
             lib.call("curve_hits_undecided_get", out, k, address(undecided[k:]))
     finally:
         lib.functions["curve_hits_free"](out)
-    return Hits(hits, undecided)
+    return _kept(status, Hits(hits, undecided))
 
 
 def curves(first: Curve, second: Curve, *, tolerance: float = 0, budget: int = 0, should_stop: Callable[[], object] | None = None) -> Hits:
@@ -233,12 +237,13 @@ def sections(surface: Surface, quadrics: Iterable[Quadric], *, tolerance: float 
     given = list(quadrics)
     data, options = _quadrics(given), _options(tolerance, chord, budget, threads, should_stop, progress)
     out = ctypes.c_void_p()
-    _kept(lib.call("intersect_surface_quadrics", _shape("surface", surface, Surface), ctypes.addressof(data), len(given),
-                   ctypes.addressof(options), ctypes.byref(out)))
+    status = lib.call("intersect_surface_quadrics", _shape("surface", surface, Surface), ctypes.addressof(data), len(given),
+                      ctypes.addressof(options), ctypes.byref(out))
     try:
-        return [_section(out, k) for k in range(len(given))]
+        found = [_section(out, k) for k in range(len(given))]
     finally:
         lib.functions["sections_free"](out)
+    return _kept(status, found)
 
 
 def _section(sections: Any, number: int) -> Section:
@@ -313,15 +318,14 @@ class Caster:
         o, d, ends = self._rays(origins, directions, reach)
         out, options = np.zeros(len(o), RAY_HIT), _options(0, 0, 0, threads, should_stop, progress)
         name = "caster_nearest" if alone else "caster_first"
-        _kept(lib.call(name, self._pointer, address(o), address(d), len(o), address(ends), ctypes.addressof(options), address(out)))
-        return out
+        return _kept(lib.call(name, self._pointer, address(o), address(d), len(o), address(ends), ctypes.addressof(options), address(out)), out)
 
     def all(self, origins: ArrayLike, directions: ArrayLike, reach: ArrayLike | None = None, *, threads: int = 0,
             should_stop: Callable[[], object] | None = None, progress: Callable[[int, int], object] | None = None) -> tuple:
         """All hits of each ray: records (`RAY_HIT`), where those of each ray begin (one more than rays), and flags of each ray."""
         o, d, ends = self._rays(origins, directions, reach)
         out, count, options = ctypes.c_void_p(), ctypes.c_size_t(), _options(0, 0, 0, threads, should_stop, progress)
-        _kept(lib.call("caster_all", self._pointer, address(o), address(d), len(o), address(ends), ctypes.addressof(options), ctypes.byref(out)))
+        status = lib.call("caster_all", self._pointer, address(o), address(d), len(o), address(ends), ctypes.addressof(options), ctypes.byref(out))
         try:
             lib.call("ray_hits_count", out, ctypes.byref(count))
             hits, starts, flags = np.zeros(count.value, RAY_HIT), np.zeros(len(o) + 1, np.uintp), np.zeros(len(o), np.uint32)
@@ -330,4 +334,4 @@ class Caster:
             lib.call("ray_hits_flags", out, len(flags), address(flags))
         finally:
             lib.functions["ray_hits_free"](out)
-        return hits, starts.astype(np.int64), flags
+        return _kept(status, (hits, starts.astype(np.int64), flags))

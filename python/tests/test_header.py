@@ -65,7 +65,8 @@ def test_structs():
                                           (trims.CoedgeFlag, "FPT_COEDGE_"), (trims.Replacement, "FPT_REPLACEMENT_"),
                                           (trims.FindingKind, "FPT_FINDING_"), (pcurve.PcurveFlag, "FPT_DEVIATION_"),
                                           (footpoint.Standing, "FPT_FACE_"), (footpoint.StandingFlag, "FPT_STANDING_"), (footpoint.BranchEnd, "FPT_BRANCH_END_"),
-                                          (footpoint.ContactKind, "FPT_CONTACT_"), (fair.Method, "FPT_FAIR_"),
+                                          (footpoint.ContactKind, "FPT_CONTACT_"), (footpoint.Corrector, "FPT_CORRECTOR_"),
+                                          (footpoint.IntersectMethod, "FPT_INTERSECT_"), (fair.Method, "FPT_FAIR_"),
                                           (inspect.Quantity, "FPT_QUANTITY_"), (inspect.Pattern, "FPT_PATTERN_"),
                                           (inspect.Kind, "FPT_PLACE_"), (operate.Direction, "FPT_DIRECTION_"),
                                           (intersect.HitNature, "FPT_HIT_"), (intersect.End, "FPT_SECTION_END_"),
@@ -208,6 +209,10 @@ def test_every_function_is_reached(monkeypatch):
     with pytest.raises(TypeError):
         met.split(0, 1e-6)
     assert len(footpoint.intersect_surfaces(surface, flat, budget=2).undecided)
+    start = met.branches[0].points[3]
+    uvst = np.hstack([start["uv"], start["st"]])
+    walk = footpoint.intersect_march(surface, flat, uvst).branches[0].points
+    footpoint.intersect_correct(surface, flat, uvst), footpoint.intersect_bisect(surface, flat, np.hstack([walk["uv"], walk["st"]]))
     line, plane = footpoint.Curve.from_poles(1, [[-5, 0, 1], [5, 0, 1]]), intersect.Quadric.plane([0, 0, 1], [0, 0, 1])
     intersect.curves(curve, curve, budget=50), intersect.surface_curve(surface, line), intersect.curve_quadric(line, plane)
     intersect.sections(surface, [plane, intersect.Quadric.plane(surface.evaluate([1, 0.5]), [1, 0, 0])])
@@ -221,7 +226,7 @@ def test_every_function_is_reached(monkeypatch):
     footpoint.version(), footpoint.abi_version()
     with pytest.raises(RuntimeError, match="FPT_INTERNAL"):
         raise _library.failure(_library.INTERNAL)
-    del curve, surface, shape, scene, query, face, met
+    del curve, surface, shape, scene, query, face, met, walk
     assert set(_library.PROTOTYPES) - reached == set()
 
 

@@ -20,8 +20,13 @@ def test_curves():
     assert np.allclose(found.hits["point"], [[1, 1, 0]], atol=1e-15)
     assert intersect.curves(a, a).hits["nature"].tolist() == [HitNature.OVERLAP]
     assert not intersect.curves(circle(), circle(), budget=3).is_complete
-    with pytest.raises(footpoint.Cancelled):
+    with pytest.raises(footpoint.Cancelled) as stopped:
         intersect.curves(a, a, should_stop=lambda: True)
+    assert not stopped.value.found.is_complete and not len(stopped.value.found.hits)
+    assert stopped.value.found.undecided.tolist() == [[0, 1, 0, 0, 0, 1]]
+    with pytest.raises(footpoint.Cancelled) as stopped:
+        intersect.sections(square(), [Quadric.plane([1, 0, 0], [1, 0.1, 0])] * 3, should_stop=lambda: True, threads=1)
+    assert [one.is_complete for one in stopped.value.found] == [False] * 3
     with pytest.raises(TypeError, match="second"):
         intersect.curves(a, square())
     with pytest.raises(ValueError, match="tolerance"):

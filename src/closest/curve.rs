@@ -10,7 +10,7 @@ use super::elementary::raise;
 use super::line::{Given, Line, LineMemory, Source, search_line};
 use super::local::{LOCAL_FLAGS, WholeCurve, curve_start};
 use super::proof::{Proof, Site, Watch, note_loose};
-use super::settle::settle_on_curve;
+use super::settle::settled_on_curve;
 use super::within::{Within, nothing_within};
 use super::{
     CONTINUUM_STEPS, FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, distance,
@@ -22,8 +22,8 @@ use crate::error::Error;
 use crate::index::{
     CurveIndex, CurveReach, IndexedCurve, position_error, position_steps, product_steps,
 };
-use crate::jet::place;
-use crate::refine::{Method, Trace, foot_on_curve};
+use crate::jet::{Jet1, place};
+use crate::refine::{Landing, Method, Trace, foot_on_curve, land_on_curve};
 
 /// A tangent break smaller than this angle (radians) is rounding of the poles, not a crease.
 pub const LEAST_CREASE: f64 = 1e-6;
@@ -376,23 +376,35 @@ impl CurveSearch<'_> {
     fn iterate_from(&self, k: usize, start: f64, range: [f64; 2], proof: &mut Proof) {
         let view = (self.index.net(k), sub(self.query, self.index.segments[k].center));
         let method = self.options.method;
-        let (s, jet, taken) = match &mut proof.trace {
-            None => foot_on_curve(&view, start, range, method, None),
+        let Landing { at, mut seen, mut jet, taken } = match &mut proof.trace {
+            None => land_on_curve(&view, start, range, method),
             Some(watch) => {
                 let mut tell = |step: u32, s: f64, _: f64, d: f64| {
                     watch(step, Site { piece: k, at: [s, 0.0] }, d);
                 };
-                foot_on_curve(&view, start, range, method, Some(&mut tell))
+                let (at, jet, taken) = foot_on_curve(&view, start, range, method, Some(&mut tell));
+                Landing { at, seen: at, jet, taken }
             }
         };
         proof.evaluations += taken;
-        let flat = || jet.is_flat().then_some([1.0, 0.0]);
-        let site = Site { piece: k, at: [s, 0.0] };
-        proof.offer(site, jet.d, flat);
-        proof.keep(site, &jet.into());
         let (rational, radius) = (self.index.is_rational(), self.index.segments[k].radius);
         let position = position_error(self.steps, rational, radius, norm(view.1), norm(self.query));
-        settle_on_curve(self.reach, site, &jet, position, self.index.degree(), proof);
+        let (degree, gap) = (self.index.degree(), proof.gap);
+        let site = |s: f64| Site { piece: k, at: [s, 0.0] };
+        let settled =
+            |s, jet: &Jet1| settled_on_curve(self.reach, site(s), jet, position, degree, gap);
+        let mut bound = settled(seen, &jet);
+        if bound.is_none() && seen != at {
+            (seen, jet) = (at, view.0.jet(at, view.1));
+            proof.evaluations += 1;
+            bound = settled(seen, &jet);
+        }
+        let flat = || jet.is_flat().then_some([1.0, 0.0]);
+        proof.offer(site(at), jet.d, flat);
+        if seen == at {
+            proof.keep(site(at), &jet.into());
+        }
+        proof.settle(site(at), || bound);
     }
 
     /// Goes on in the neighbour when the best foot lies on the knot between two segments: the search leaves out what

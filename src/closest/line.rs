@@ -12,7 +12,7 @@ use super::certificate::{
 };
 use super::net::CutFree;
 use super::proof::{Proof, Site};
-use super::settle::settle_on_curve;
+use super::settle::settled_on_curve;
 use crate::bezier::Bidegree;
 use crate::bounds::{HALF_ULP, Vector, dot, norm};
 use crate::coefficients::{Differences, Grid};
@@ -311,7 +311,9 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         self.proof.offer(site, jet.d, along);
         self.proof.rival(site, jet.d);
         let (position, degree) = (self.line.position, self.line.segment.degree);
-        settle_on_curve(self.line.reach, site, &jet, position, degree, self.proof);
+        let (reach, gap) = (self.line.reach, self.proof.gap);
+        let bound = || settled_on_curve(reach, site, &jet, position, degree, gap);
+        self.proof.settle(site, bound);
         let [first, last] = self.line.range;
         if (s == low && low != first) || (s == high && high != last) || taken >= LONG {
             self.proof.cut_off((self.line.site)(s));

@@ -68,7 +68,7 @@ pub struct Proof<'t> {
     pub target_squared: f64,
     /// Least bound of all boxes that were given up.
     pub lower: f64,
-    /// A bound of everything that the best foot itself gave (see `settle`): there is no other foot within the window.
+    /// A bound of everything that the best foot itself gave (see [`settled`](super::settle::settled)): there is no other foot within the window.
     pub settled: Option<f64>,
     /// Greatest displacement of the nets visited (collapsed edges made exact).
     pub spread: f64,
@@ -157,6 +157,13 @@ impl<'t> Proof<'t> {
     pub fn keep(&mut self, site: Site, jet: &Jet2) {
         if self.site == Some(site) {
             self.jet = Some(*jet);
+        }
+    }
+
+    /// Notes what the place just offered, if that is the best, shows of the whole shape; a bound that there was holds on.
+    pub fn settle(&mut self, site: Site, bound: impl FnOnce() -> Option<f64>) {
+        if self.site == Some(site) {
+            self.settled = bound().or(self.settled);
         }
     }
 

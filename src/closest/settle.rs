@@ -1,7 +1,7 @@
 //! The proof at once: the foot's normal is short enough that nothing else on the surface can be as near.
 
 use super::certificate::slope_error;
-use super::proof::{Proof, Site};
+use super::proof::Site;
 use crate::bezier::Bidegree;
 use crate::bounds::{HALF_ULP, add, cross, dot, norm, scaled, sub};
 use crate::index::{CurveReach, Reach};
@@ -10,21 +10,19 @@ use crate::jet::{Jet1, Jet2};
 /// What must be left of `1 - 2 a K`: less says too little of feet that tie.
 const LEAST_ROOM: f64 = 0.0625;
 
-/// Notes in the proof when its best foot, found just now with this jet, shows that nothing else is as near (see
-/// [`Reach`]); `position`: how far its point may be off.
-pub fn settle(
+/// A lower bound of the distance to the whole surface within `gap` of that of a place with this jet, where there is one (see
+/// [`Reach`]): then nothing else is as near. `position`: how far the point may be off.
+pub fn settled(
     reach: Option<&Reach>,
     site: Site,
     jet: &Jet2,
     position: f64,
     degree: Bidegree,
-    proof: &mut Proof,
-) {
-    if let (Some(reach), true) = (reach, proof.site == Some(site)) {
-        let bound = bound(reach, site, jet, position, [degree.s, degree.t]);
-        // Not where the iteration has left more than the gap; a bound that there was holds on.
-        proof.settled = bound.filter(|b| *b >= norm(jet.d) - proof.gap).or(proof.settled);
-    }
+    gap: f64,
+) -> Option<f64> {
+    let bound = bound(reach?, site, jet, position, [degree.s, degree.t]);
+    // Not where the iteration has left more than the gap.
+    bound.filter(|b| *b >= norm(jet.d) - gap)
 }
 
 /// A lower bound of the distance to the whole surface, if the place of the jet gives one.
@@ -93,19 +91,17 @@ fn bound(
     lost.is_finite().then_some(bound)
 }
 
-/// As [`settle`], for a curve.
-pub fn settle_on_curve(
+/// As [`settled`], for a curve.
+pub fn settled_on_curve(
     reach: Option<&CurveReach>,
     site: Site,
     jet: &Jet1,
     position: f64,
     degree: usize,
-    proof: &mut Proof,
-) {
-    if let (Some(reach), true) = (reach, proof.site == Some(site)) {
-        let bound = bound_on_curve(reach, site, jet, position, degree);
-        proof.settled = bound.filter(|b| *b >= norm(jet.d) - proof.gap).or(proof.settled);
-    }
+    gap: f64,
+) -> Option<f64> {
+    let bound = bound_on_curve(reach?, site, jet, position, degree);
+    bound.filter(|b| *b >= norm(jet.d) - gap)
 }
 
 /// A lower bound of the distance to the whole curve, if the place of the jet gives one.

@@ -8,7 +8,7 @@ use super::elementary::raise;
 use super::local::{LOCAL_FLAGS, WholeSurface, surface_start};
 use super::patch::{Far, PatchMemory, Sheet, search_patch};
 use super::proof::{Proof, Site, Watch, note_loose};
-use super::settle::settle;
+use super::settle::settled;
 use super::within::{Within, nothing_within};
 use super::{
     FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, far_foot, first_limit,
@@ -18,8 +18,8 @@ use super::{
 use crate::bounds::{HALF_ULP, Vector, add, dot, norm, scaled, sub};
 use crate::error::Error;
 use crate::index::{IndexedSurface, Reach, Span, SurfaceIndex, position_error, position_steps};
-use crate::jet::place;
-use crate::refine::{Method, Trace, foot_on_surface};
+use crate::jet::{Jet2, place};
+use crate::refine::{Landing, Method, Trace, foot_on_surface, land_on_surface};
 
 /// Boxes that one patch may take before the others have had their turn: a difficult patch that does not even
 /// hold the foot must not use up the budget. One query in a thousand gets here.
@@ -491,22 +491,35 @@ impl SurfaceSearch<'_> {
         proof: &mut Proof,
     ) {
         let view = (self.index.net(k), sub(self.query, self.index.patches[k].center));
-        let (at, jet, taken) = match &mut proof.trace {
-            None => foot_on_surface(&view, start, range, method, None),
+        let Landing { at, mut seen, mut jet, taken } = match &mut proof.trace {
+            None => land_on_surface(&view, start, range, method),
             Some(watch) => {
                 let mut tell = |step: u32, s: f64, t: f64, d: f64| {
                     watch(step, Site { piece: k, at: [s, t] }, d);
                 };
-                foot_on_surface(&view, start, range, method, Some(&mut tell))
+                let (at, jet, taken) =
+                    foot_on_surface(&view, start, range, method, Some(&mut tell));
+                Landing { at, seen: at, jet, taken }
             }
         };
         proof.evaluations += taken;
-        proof.offer(Site { piece: k, at }, jet.d, || jet.flat_direction());
-        proof.keep(Site { piece: k, at }, &jet);
         let patch = &self.index.patches[k];
         let (rational, p, q) = (self.index.rational, norm(view.1), norm(self.query));
         let position = position_error(self.steps, rational, patch.radius, p, q);
-        settle(self.reach, Site { piece: k, at }, &jet, position, self.index.degree, proof);
+        let (degree, gap) = (self.index.degree, proof.gap);
+        let site = |at| Site { piece: k, at };
+        let bound_at = |at, jet: &Jet2| settled(self.reach, site(at), jet, position, degree, gap);
+        let mut bound = bound_at(seen, &jet);
+        if bound.is_none() && seen != at {
+            (seen, jet) = (at, view.0.jet(at[0], at[1], view.1));
+            proof.evaluations += 1;
+            bound = bound_at(seen, &jet);
+        }
+        proof.offer(site(at), jet.d, || jet.flat_direction());
+        if seen == at {
+            proof.keep(site(at), &jet);
+        }
+        proof.settle(site(at), || bound);
     }
 
     fn walk_once(&self, workspace: &mut Workspace, proof: &mut Proof) {

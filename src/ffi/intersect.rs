@@ -1,7 +1,8 @@
 //! Intersections of curves with curves, surfaces and quadrics; sections of surfaces by quadrics; conics of quadrics.
 //!
 //! Answers are handles of their own: sizes are not known beforehand. They are written when they are complete and also when
-//! something could not be decided (then with FPT_BUDGET_EXHAUSTED and the boxes); any other failure writes nothing.
+//! something could not be decided or should_stop said so (then with FPT_BUDGET_EXHAUSTED or FPT_CANCELLED and the boxes); any other failure
+//! writes nothing.
 
 use super::curve::{self, fpt_curve};
 use super::intersect_records::{
@@ -28,17 +29,19 @@ fn beyond(index: usize, count: usize) -> Failure {
     Failure::invalid(format!("index: {index} is not below the count of {count}"))
 }
 
-fn undecided(left: usize) -> Result<(), Failure> {
-    if left == 0 {
-        return Ok(());
+fn undecided(stopped: bool, left: usize) -> Result<(), Failure> {
+    let see = format!("{left} boxes are undecided; the answer lists them");
+    match (stopped, left) {
+        (true, _) => Err(Failure::Stopped(format!("cancelled by should_stop: {see}"))),
+        (_, 0) => Ok(()),
+        _ => Err(Failure::Budget(format!("budget: {see}"))),
     }
-    Err(Failure::Budget(format!("budget: {left} boxes are undecided; the answer lists them")))
 }
 
 fn hand_over(hits: CurveHits, out: &mut *mut fpt_curve_hits) -> Result<(), Failure> {
-    let left = hits.undecided.len();
+    let (stopped, left) = (hits.stopped, hits.undecided.len());
     *out = Box::into_raw(Box::new(fpt_curve_hits { hits }));
-    undecided(left)
+    undecided(stopped, left)
 }
 
 /// Where two curves meet: crossings, contacts and overlaps, with proof that none is missing: everything else of the two is
@@ -50,7 +53,7 @@ fn hand_over(hits: CurveHits, out: &mut *mut fpt_curve_hits) -> Result<(), Failu
 ///
 /// @param options  tolerance, budget, should_stop and user count; NULL: the defaults
 /// @param out      the hits; release them with fpt_curve_hits_free
-/// @return FPT_BUDGET_EXHAUSTED with hits that miss what lies in the undecided boxes
+/// @return FPT_BUDGET_EXHAUSTED, or FPT_CANCELLED when should_stop said so, with hits that miss what lies in the undecided boxes
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
@@ -219,7 +222,8 @@ pub unsafe extern "C" fn fpt_curve_hits_free(hits: *mut fpt_curve_hits) {
 /// @param count     at least 1
 /// @param options   NULL: the defaults
 /// @param out       the sections, in the order of the quadrics; release them with fpt_sections_free
-/// @return FPT_BUDGET_EXHAUSTED with sections of which some miss what lies in their undecided regions
+/// @return FPT_BUDGET_EXHAUSTED, or FPT_CANCELLED when should_stop said so, with sections of which some miss what lies in their undecided
+///         regions: all of the domain for those not begun
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
@@ -248,10 +252,13 @@ pub unsafe extern "C" fn fpt_intersect_surface_quadrics(
         let mut poll = |done: usize| callbacks.poll(done, count);
         let threads = options.threads as usize;
         let sections = surface.sections(&list, &options.sections(), threads, &mut poll)?;
-        callbacks.report(count, count);
         let left = sections.iter().map(|section| section.undecided.len()).sum();
+        let stopped = sections.iter().any(|section| section.stopped);
+        if !stopped {
+            callbacks.report(count, count);
+        }
         *out = Box::into_raw(Box::new(fpt_sections { sections }));
-        undecided(left)
+        undecided(stopped, left)
     })
 }
 

@@ -179,6 +179,8 @@ pub unsafe extern "C" fn fpt_caster_nearest(
 /// @param reach       as for fpt_caster_first
 /// @param options     as for fpt_caster_first
 /// @param out         the hits; release them with fpt_ray_hits_free
+/// @return FPT_CANCELLED when should_stop said so: rays not reached have no hit, some have only their first one, and all of these have
+///         FPT_RAY_NOT_PROVEN in their flags
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
@@ -201,9 +203,14 @@ pub unsafe extern "C" fn fpt_caster_all(
         let mut poll = |done: usize| callbacks.poll(done, count);
         let threads = options.threads as usize;
         let hits = caster.all_hits(&|k| rays.get(k), count, threads, &mut poll)?;
-        callbacks.report(count, count);
+        let stopped = hits.stopped;
         *out = Box::into_raw(Box::new(fpt_ray_hits { hits }));
-        Ok(())
+        if !stopped {
+            callbacks.report(count, count);
+            return Ok(());
+        }
+        let text = "cancelled by should_stop: rays that were not cast have FPT_RAY_NOT_PROVEN";
+        Err(Failure::Stopped(text.into()))
     })
 }
 

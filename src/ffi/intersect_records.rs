@@ -28,7 +28,7 @@ pub struct fpt_hit_options {
     pub threads: u32,
     /// Must be 0.
     pub reserved: u32,
-    /// Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED. NULL: never.
+    /// Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED and what was found by then. NULL: never.
     pub should_stop: Option<unsafe extern "C" fn(user: *mut c_void) -> c_int>,
     /// Told on the calling thread how many of all sections or rays are done. NULL: not wanted.
     pub progress: Option<unsafe extern "C" fn(user: *mut c_void, done: usize, total: usize)>,

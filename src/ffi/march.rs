@@ -1,13 +1,16 @@
 //! Surface-surface intersection: branches, contacts, regions and boxes behind a handle.
 //!
-//! The result is written when it is complete and also when the budget ran out (then with FPT_BUDGET_EXHAUSTED and what is
-//! undecided); any other failure writes nothing.
+//! The result is written when it is complete and also when the budget ran out or should_stop said so (then with FPT_BUDGET_EXHAUSTED or
+//! FPT_CANCELLED and what is undecided); any other failure writes nothing.
 
 use super::curve::fpt_curve;
 use super::form::CurveForm;
+use super::march_records::{
+    fpt_branch_end, fpt_contact_kind, fpt_intersect_method, fpt_intersect_surfaces_options,
+    fpt_intersection_branch, fpt_intersection_contact, fpt_intersection_point,
+    fpt_intersection_summary,
+};
 use super::memory::{output, place, shared, write_array};
-use super::options::{SelfSized, check_length, sized};
-use super::query::Callbacks;
 use super::surface::{self, fpt_surface};
 use super::trim::{self, fpt_trim};
 use super::{Failure, fpt_status, guard};
@@ -16,9 +19,7 @@ use crate::index::IndexedCurve;
 use crate::march::curves::curves;
 use crate::march::faces::intersect_faces;
 use crate::march::split::{cuts_of, split};
-use crate::march::{ContactKind, End, Intersection, MarchOptions, MarchPoint, Region, intersect};
-use std::ffi::{c_int, c_void};
-use std::mem::{offset_of, size_of};
+use crate::march::{ContactKind, End, Intersection, MarchPoint, Region, intersect, named};
 use std::sync::Arc;
 
 /// All that two surfaces have in common. Immutable: any number of threads may read one at a time. Owned by the caller,
@@ -27,195 +28,19 @@ pub struct fpt_surface_intersection {
     found: Intersection,
 }
 
-/// What an end of a branch is, for fpt_intersection_branch.end_kind.
-#[repr(C)]
-pub enum fpt_branch_end {
-    /// The branch is closed.
-    FPT_BRANCH_END_CLOSED = 0,
-    /// A border: end_index is the side, 0 to 7 for u low, u high, v low, v high of A, then of B.
-    FPT_BRANCH_END_BORDER = 1,
-    /// A contact (a branch point, a cusp, a collapsed edge): end_index is its number.
-    FPT_BRANCH_END_CONTACT = 2,
-    /// An undecided box is there.
-    FPT_BRANCH_END_UNDECIDED = 3,
-    /// A trim: end_index is 0 for one of A, 1 for one of B.
-    FPT_BRANCH_END_TRIM = 4,
-}
-
-/// What a contact is, for fpt_intersection_contact.kind.
-#[repr(C)]
-pub enum fpt_contact_kind {
-    /// The surfaces touch from one side.
-    FPT_CONTACT_TOUCHING = 0,
-    /// Two curves cross.
-    FPT_CONTACT_CROSSING = 1,
-    /// The surfaces agree beyond the second order, or have no tangent plane.
-    FPT_CONTACT_DEGENERATE = 2,
-    /// A border of one surface just meets the other.
-    FPT_CONTACT_BORDER = 3,
-    /// A collapsed edge of one surface lies on the other.
-    FPT_CONTACT_TIP = 4,
-}
-
-/// What an intersection asks for. Fill it with fpt_intersect_surfaces_options_init, then change what matters. All zero after
-/// struct_size is the default of everything. Grows at the end only.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct fpt_intersect_surfaces_options {
-    /// sizeof(fpt_intersect_surfaces_options), set by fpt_intersect_surfaces_options_init.
-    pub struct_size: usize,
-    /// Length, finite, >= 0. How far a branch may be from the chord between two of its points. 0: 1e-3 x the size of
-    /// the smaller surface (the power of two above the diagonal of its box).
-    pub chord: f64,
-    /// Most pairs of parts; 0: the default, 2,000,000.
-    pub budget: u64,
-    /// Asked on the calling thread now and then; non-zero ends the call with FPT_CANCELLED. NULL: never.
-    pub should_stop: Option<unsafe extern "C" fn(user: *mut c_void) -> c_int>,
-    /// Told on the calling thread now and then: pairs judged, and pairs judged or waiting. NULL: nobody.
-    pub progress: Option<unsafe extern "C" fn(user: *mut c_void, done: usize, total: usize)>,
-    /// Handed to the callbacks as it is.
-    pub user: *mut c_void,
-}
-
-impl Default for fpt_intersect_surfaces_options {
-    fn default() -> Self {
-        Self {
-            struct_size: size_of::<Self>(),
-            chord: 0.0,
-            budget: 0,
-            should_stop: None,
-            progress: None,
-            user: std::ptr::null_mut(),
-        }
-    }
-}
-
-// SAFETY: repr(C), begins with struct_size; numbers, a raw pointer and nullable function pointers.
-unsafe impl SelfSized for fpt_intersect_surfaces_options {
-    const SHORTER: &'static [usize] = &[
-        offset_of!(Self, chord),
-        offset_of!(Self, budget),
-        offset_of!(Self, should_stop),
-        offset_of!(Self, progress),
-        offset_of!(Self, user),
-    ];
-
-    fn defaults() -> Self {
-        Self::default()
-    }
-}
-
-/// Counts and verdicts of an intersection.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct fpt_intersection_summary {
-    /// Curves.
-    pub branch_count: usize,
-    /// Points.
-    pub contact_count: usize,
-    /// Boxes in which the surfaces coincide.
-    pub overlap_count: usize,
-    /// Boxes about which nothing is known.
-    pub undecided_count: usize,
-    /// Pairs of parts judged.
-    pub pairs: u64,
-    /// 1: nothing is missing and every branch is transversal, with proof. 0 with contacts, overlaps, tangential branches or
-    /// undecided boxes: what touches cannot be told from a gap below the rounding.
-    pub is_proven: u32,
-    /// 1: the budget ran out.
-    pub is_exhausted: u32,
-}
-
-/// A branch without its points.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct fpt_intersection_branch {
-    /// Number of points.
-    pub point_count: usize,
-    /// Greatest distance between the two surface points of one of its points.
-    pub gap: f64,
-    /// Proven: between two points the branch stays within this of their chord. Infinite where nothing is proven.
-    pub chord: f64,
-    /// 1: the surfaces touch along it.
-    pub is_tangential: u32,
-    /// 1: it bounds an area in which the surfaces coincide; then it is tangential too.
-    pub bounds_overlap: u32,
-    /// 1: it is a loop; its first point comes again as the last.
-    pub is_closed: u32,
-    /// 0.
-    pub reserved: u32,
-    /// Values of fpt_branch_end, of its beginning and its end.
-    pub end_kind: [u32; 2],
-    /// What they refer to.
-    pub end_index: [u32; 2],
-}
-
-/// A point of an intersection: 56 bytes, frozen.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct fpt_intersection_point {
-    /// Middle of the two surface points.
-    pub point: [f64; 3],
-    /// Parameters of A.
-    pub uv: [f64; 2],
-    /// Parameters of B.
-    pub st: [f64; 2],
-}
-
-const _: () = {
-    assert!(size_of::<fpt_intersection_point>() == 56 && size_of::<MarchPoint>() == 56);
-    assert!(offset_of!(fpt_intersection_point, point) == offset_of!(MarchPoint, point));
-    assert!(offset_of!(fpt_intersection_point, uv) == offset_of!(MarchPoint, uv));
-    assert!(offset_of!(fpt_intersection_point, st) == offset_of!(MarchPoint, st));
-};
-
-/// An isolated contact.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct fpt_intersection_contact {
-    /// Where.
-    pub place: fpt_intersection_point,
-    /// Distance between the surfaces there.
-    pub gap: f64,
-    /// Length: what the surfaces do within it was not told apart further.
-    pub radius: f64,
-    /// A value of fpt_contact_kind.
-    pub kind: u32,
-    /// 0.
-    pub reserved: u32,
-}
-
-/// Fills `options` with the defaults. Touches exactly struct_size bytes: pass sizeof *options.
-/// Does nothing when `options` is NULL or struct_size is smaller than a size_t.
-/// @since 0.1
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fpt_intersect_surfaces_options_init(
-    options: *mut fpt_intersect_surfaces_options,
-    struct_size: usize,
-) {
-    if options.is_null() || struct_size < size_of::<usize>() {
-        return;
-    }
-    let known = struct_size.min(size_of::<fpt_intersect_surfaces_options>());
-    let defaults = fpt_intersect_surfaces_options { struct_size, ..Default::default() };
-    let source = (&raw const defaults).cast::<u8>();
-    let target = options.cast::<u8>();
-    // SAFETY: the caller's struct has `struct_size` bytes; `defaults` has no padding before `known`.
-    unsafe {
-        source.copy_to_nonoverlapping(target, known);
-        target.add(known).write_bytes(0, struct_size - known);
-    }
-}
-
 /// All branches and points that two surfaces have in common, with proof that none is missing, or with what could not be decided.
 ///
 /// Pairs of Bezier pieces are halved until they provably hold nothing or one transversal arc; loops cannot hide. Where the surfaces touch
 /// to the last digits, the contact is classified and measured, not proven.
 ///
-/// @param a, b     surfaces of knots and poles; FPT_UNSUPPORTED for one given by a function, or that is a point
+/// FPT_INTERSECT_SUBDIVISION and FPT_INTERSECT_MESH give polylines on triangles: the gap of a branch says how far its points are off, nothing
+/// is proven, and one undecided box is all of both domains.
+///
+/// @param a, b     surfaces of knots and poles; FPT_UNSUPPORTED for one given by a function (but by FPT_INTERSECT_MESH), or that is a
+///                 point
 /// @param options  NULL: the defaults
 /// @param out      the result; release it with fpt_surface_intersection_free
-/// @return FPT_BUDGET_EXHAUSTED with a result that misses what lies in its undecided boxes
+/// @return FPT_BUDGET_EXHAUSTED, or FPT_CANCELLED when should_stop said so, with a result that misses what lies in its undecided boxes
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
@@ -227,13 +52,38 @@ pub unsafe extern "C" fn fpt_intersect_surfaces(
 ) -> fpt_status {
     // SAFETY: the header asks for live handles, options and room for a handle.
     guard(|| unsafe {
-        let (a, b) = (surface::indexed_as("a", a)?, surface::indexed_as("b", b)?);
-        let (asked, callbacks) = asked(options)?;
-        let out = place("out", out)?;
-        let found = intersect(a, b, &asked, &mut |done, left| {
-            callbacks.poll(done as usize, (done + left) as usize)
-        })?;
-        handed_out(found, out)
+        let options = fpt_intersect_surfaces_options::read(options)?;
+        let (asked, callbacks) = (options.march(), options.callbacks());
+        let mut poll = |done: u64, left: u64| callbacks.poll(done as usize, (done + left) as usize);
+        const AUTO: u32 = fpt_intersect_method::FPT_INTERSECT_AUTO as u32;
+        const SUBDIVISION: u32 = fpt_intersect_method::FPT_INTERSECT_SUBDIVISION as u32;
+        const MESH: u32 = fpt_intersect_method::FPT_INTERSECT_MESH as u32;
+        let splines = || -> Result<_, Failure> {
+            Ok((surface::indexed_as("a", a)?, surface::indexed_as("b", b)?))
+        };
+        let made = |found| handed_out(found, place("out", out)?);
+        match options.method {
+            AUTO => {
+                let (a, b) = splines()?;
+                place("out", out)?;
+                made(intersect(a, b, &asked, &mut poll)?)
+            }
+            SUBDIVISION => {
+                let (a, b) = splines()?;
+                place("out", out)?;
+                let (a, b) = (a.surface(), b.surface());
+                made(named::by_subdivision(a, b, options.levels, &asked, &mut poll)?)
+            }
+            MESH => {
+                let (a, b) = (surface::support_as("a", a)?, surface::support_as("b", b)?);
+                place("out", out)?;
+                made(named::by_mesh(&a, &b, options.levels, &mut poll)?)
+            }
+            other => {
+                let text = format!("method: {other} is not an FPT_INTERSECT_ value");
+                Err(Failure::invalid(text))
+            }
+        }
     })
 }
 
@@ -247,7 +97,7 @@ pub unsafe extern "C" fn fpt_intersect_surfaces(
 /// @param a, b     the faces
 /// @param options  NULL: the defaults
 /// @param out      the result; release it with fpt_surface_intersection_free
-/// @return FPT_BUDGET_EXHAUSTED with a result that misses what lies in its undecided boxes
+/// @return FPT_BUDGET_EXHAUSTED, or FPT_CANCELLED when should_stop said so, with a result that misses what lies in its undecided boxes
 /// @since 0.1
 #[must_use]
 #[unsafe(no_mangle)]
@@ -260,44 +110,33 @@ pub unsafe extern "C" fn fpt_intersect_trims(
     // SAFETY: the header asks for live handles, options and room for a handle.
     guard(|| unsafe {
         let (a, b) = (trim::face("a", a)?, trim::face("b", b)?);
-        let (asked, callbacks) = asked(options)?;
+        let options = fpt_intersect_surfaces_options::read(options)?;
+        if options.method != fpt_intersect_method::FPT_INTERSECT_AUTO as u32 {
+            let text = format!("method: {}: faces take FPT_INTERSECT_AUTO only", options.method);
+            return Err(Failure::invalid(text));
+        }
+        let callbacks = options.callbacks();
         let out = place("out", out)?;
-        let found = intersect_faces(a, b, &asked, &mut |done, left| {
+        let found = intersect_faces(a, b, &options.march(), &mut |done, left| {
             callbacks.poll(done as usize, (done + left) as usize)
         })?;
         handed_out(found, out)
     })
 }
 
-/// The options of a call; NULL: the defaults.
-///
-/// # Safety
-/// NULL or options with a size that is true.
-unsafe fn asked(
-    options: *const fpt_intersect_surfaces_options,
-) -> Result<(MarchOptions, Callbacks), Failure> {
-    let given = if options.is_null() {
-        fpt_intersect_surfaces_options::default()
-    } else {
-        // SAFETY: the caller vouches for it.
-        unsafe { sized("options", options)? }
-    };
-    check_length("chord", given.chord)?;
-    let callbacks = Callbacks::telling(given.should_stop, given.progress, given.user);
-    Ok((MarchOptions { chord: given.chord, budget: given.budget }, callbacks))
-}
-
-/// Hands a result to the caller, with the failure of a budget that ran out.
-fn handed_out(found: Intersection, out: &mut *mut fpt_surface_intersection) -> Result<(), Failure> {
-    let (exhausted, left) = (found.exhausted, found.undecided.len());
+/// Hands a result to the caller, with the failure of a budget that ran out or of a stop.
+pub(super) fn handed_out(
+    found: Intersection,
+    out: &mut *mut fpt_surface_intersection,
+) -> Result<(), Failure> {
+    let (stopped, exhausted, left) = (found.stopped, found.exhausted, found.undecided.len());
     *out = Box::into_raw(Box::new(fpt_surface_intersection { found }));
-    if !exhausted {
-        return Ok(());
+    let see = format!("with {left} boxes undecided; see fpt_surface_intersection_undecided");
+    match (stopped, exhausted) {
+        (true, _) => Err(Failure::Stopped(format!("cancelled by should_stop {see}"))),
+        (_, true) => Err(Failure::Budget(format!("budget: ran out {see}"))),
+        _ => Ok(()),
     }
-    let text = format!(
-        "budget: ran out with {left} boxes undecided; see fpt_surface_intersection_undecided"
-    );
-    Err(Failure::Budget(text))
 }
 
 /// Counts and verdicts.
@@ -319,6 +158,8 @@ pub unsafe extern "C" fn fpt_surface_intersection_summary(
             pairs: found.judged,
             is_proven: u32::from(found.is_proven),
             is_exhausted: u32::from(found.exhausted),
+            is_stopped: u32::from(found.stopped),
+            reserved: 0,
         };
         Ok(())
     })
@@ -490,7 +331,7 @@ pub unsafe extern "C" fn fpt_surface_intersection_curves(
         let (a, b) = (surface::indexed_as("a", a)?, surface::indexed_as("b", b)?);
         let (count, error) = (place("out_count", out_count)?, place("out_error", out_error)?);
         let out = output("out_curves", out_curves, 3)?;
-        let (_, callbacks) = asked(options)?;
+        let callbacks = fpt_intersect_surfaces_options::read(options)?.callbacks();
         let mut parts = curves(a, b, &branch.points, tolerance, &mut |done, left| {
             callbacks.poll(done as usize, (done + left) as usize)
         })?;
@@ -535,7 +376,7 @@ pub unsafe extern "C" fn fpt_surface_intersection_split(
             return Err(Failure::invalid(format!("which: {which} is not 0 or 1")));
         }
         let count = place("out_count", out_count)?;
-        let (_, callbacks) = asked(options)?;
+        let callbacks = fpt_intersect_surfaces_options::read(options)?.callbacks();
         let faces = split(face, &cuts_of(found, which == 1)?, tolerance, &mut |done, left| {
             callbacks.poll(done as usize, (done + left) as usize)
         })?

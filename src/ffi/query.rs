@@ -294,7 +294,8 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
             ask(shape, points.row(i), hint, options, workspace, trace)
         };
         let at = |i: usize| points.row(i);
-        let place: Option<batch::Place> = if shape.is_large() { Some(&at) } else { None };
+        let sorts = total > batch::GROUP && shape.is_large();
+        let place: Option<batch::Place> = if sorts { Some(&at) } else { None };
         Ok(batch::run(out, *threads, place, &work, &mut |done| callbacks.poll(done, total))?)
     }
 }

@@ -9,6 +9,7 @@ use super::options::{SelfSized, sized};
 use super::{Failure, fpt_status, guard};
 use crate::index::IndexedSurface;
 use crate::surface::Surface;
+use crate::trim::Support;
 use std::mem::size_of;
 use std::sync::Arc;
 
@@ -98,6 +99,21 @@ pub(super) unsafe fn indexed_as<'a>(
             Err(crate::error::Error::Unsupported(text).into())
         }
     }
+}
+
+/// The shape behind a handle, a spline or a function, where a call takes several and an error must name one.
+///
+/// # Safety
+/// NULL or a live handle.
+pub(super) unsafe fn support_as(
+    name: &'static str,
+    surface: *const fpt_surface,
+) -> Result<Support, Failure> {
+    // SAFETY: the caller vouches for it.
+    Ok(match &unsafe { shared(name, surface) }?.form {
+        SurfaceForm::Spline(surface) => Support::Spline(surface.clone()),
+        SurfaceForm::Function(function) => Support::Callback(function.clone()),
+    })
 }
 
 /// The spline surface behind a handle; a function is refused as unsupported.

@@ -69,6 +69,7 @@ pub struct IndexedCurve {
     level: Level,
     index: Once<CurveIndex>,
     general: bool,
+    few: bool,
 }
 
 /// A surface and its search index.
@@ -78,6 +79,7 @@ pub struct IndexedSurface {
     level: Level,
     index: Once<SurfaceIndex>,
     general: bool,
+    few: bool,
     /// Patches from which on the index is made in blocks.
     huge: usize,
 }
@@ -90,7 +92,13 @@ impl IndexedCurve {
 
     /// As [`Self::new`], with the vector instructions of a level: answers have the same bits at each.
     pub fn at_level(curve: Curve, level: Level) -> Self {
-        Self { curve, level, index: Once::new(), general: false }
+        Self { curve, level, index: Once::new(), general: false, few: false }
+    }
+
+    /// As [`Self::new`], for a shape that is asked a few times: what pays with hundreds of queries (see `index::reach`) is not
+    /// made.
+    pub fn for_few(curve: Curve) -> Self {
+        Self { few: true, ..Self::new(curve) }
     }
 
     /// As [`Self::new`], but elementary shapes are searched like any other: for tests that compare the two.
@@ -120,7 +128,9 @@ impl IndexedCurve {
             if !self.general {
                 index.recognise();
             }
-            index.measure_reach(poll)?;
+            if !self.few {
+                index.measure_reach(poll)?;
+            }
             Ok(index)
         })
     }
@@ -143,7 +153,13 @@ impl IndexedSurface {
     /// As [`Self::new`], with the vector instructions of a level: answers have the same bits at each.
     pub fn at_level(surface: Surface, level: Level) -> Self {
         let (surface, index) = (Arc::new(surface), Once::new());
-        Self { surface, level, index, general: false, huge: HUGE }
+        Self { surface, level, index, general: false, few: false, huge: HUGE }
+    }
+
+    /// As [`Self::new`], for a shape that is asked a few times: what pays with hundreds of queries (see `index::reach`) is not
+    /// made.
+    pub fn for_few(surface: Surface) -> Self {
+        Self { few: true, ..Self::new(surface) }
     }
 
     /// As [`Self::new`], but elementary shapes are searched like any other: for tests that compare the two.
@@ -181,7 +197,9 @@ impl IndexedSurface {
             if !self.general {
                 index.recognise();
             }
-            index.measure_reach(poll)?;
+            if !self.few {
+                index.measure_reach(poll)?;
+            }
             Ok(index)
         })
     }

@@ -1,6 +1,7 @@
 //! A curve against a plane or a quadric in implicit form: zeros of one polynomial on each segment.
 
-use super::curves::{COINCIDENT, CurveHit, CurveHits, DEFAULT_BUDGET, HitOptions, Nature};
+use super::curves::COINCIDENT;
+use super::hits::{CurveHit, CurveHits, DEFAULT_BUDGET, HitOptions, Nature};
 use super::quadric::{Form, Quadric};
 use crate::bezier::Bidegree;
 use crate::bounds::extent;
@@ -19,14 +20,22 @@ impl IndexedCurve {
         options: &HitOptions,
         poll: &mut dyn FnMut() -> bool,
     ) -> Result<CurveHits, Error> {
-        let index = self.index(poll)?;
+        let whole = self.curve().domain();
+        let index = match self.index(poll) {
+            Err(Error::Cancelled) => {
+                return Ok(CurveHits::unreached([0.0, 0.0, 0.0, 0.0, whole.0, whole.1]));
+            }
+            index => index?,
+        };
         let mut budget = if options.budget > 0 { options.budget } else { DEFAULT_BUDGET };
         let asked =
             if options.tolerance > 0.0 { options.tolerance } else { 1e-7 * index.frame.diagonal };
         let mut out = CurveHits::default();
         for (k, segment) in index.segments.iter().enumerate() {
-            if k % 256 == 255 && poll() {
-                return Err(Error::Cancelled);
+            if k.is_multiple_of(256) && poll() {
+                out.undecided.push([0.0, 0.0, 0.0, 0.0, segment.u.ends[0], whole.1]);
+                out.stopped = true;
+                break;
             }
             let form = Form::new(quadric, &index.frame, segment.center);
             if form.is_clear_of(segment.radius) {

@@ -1,14 +1,12 @@
 //! Hits of a curve with a curve or a surface, from what the boxes left: crossings, contacts, overlaps.
 
+use super::hits::{CurveHit, CurveHits, DEFAULT_BUDGET, HitOptions, Nature};
 use super::pairs::{Body, Found, FoundKind, Pairs};
 use crate::bounds::{Vector, cross, dot, norm, sub};
 use crate::closest::{QueryOptions, Workspace};
 use crate::error::Error;
 use crate::index::{Frame, IndexedCurve, IndexedSurface};
 use crate::knots::Side;
-
-/// Boxes that one request may take by default.
-pub const DEFAULT_BUDGET: u64 = 1_000_000;
 
 /// Sine of the angle below which a crossing counts as tangential.
 const TANGENTIAL: f64 = 1e-5;
@@ -20,82 +18,21 @@ pub const COINCIDENT: f64 = 1.0 / 64.0;
 /// Share of the tolerance with which near places are searched again, so that two crossings there are two.
 const FINE: f64 = 1e-4;
 
-/// How two shapes meet.
-#[repr(u32)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Nature {
-    /// At an angle.
-    Transversal = 0,
-    /// They touch: multiplicity 2 when they stay on one side, 3 when they cross.
-    Tangential = 1,
-    /// They run together along an interval.
-    Overlap = 2,
-}
-
-/// A hit: of a curve with a curve (parameters u of the first, w of the second) or with a surface (u, v; w of the curve).
-/// The layout is frozen (C API).
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CurveHit {
-    /// First parameter of the first shape.
-    pub u: f64,
-    /// Second one; 0 on a curve.
-    pub v: f64,
-    /// Parameter of the second shape, a curve.
-    pub w: f64,
-    /// The first shape there.
-    pub point: Vector,
-    /// Distance between both there.
-    pub distance: f64,
-    /// Interval of u that holds every place within the tolerance that belongs to the hit.
-    pub u_range: [f64; 2],
-    /// The same for v.
-    pub v_range: [f64; 2],
-    /// The same for w; of an overlap: where they run together.
-    pub w_range: [f64; 2],
-    /// How they meet.
-    pub nature: Nature,
-    /// 1 at an angle; 2 or 3 where they touch; 0 along an overlap.
-    pub multiplicity: u32,
-}
-
-/// What is asked; zeros are the defaults.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct HitOptions {
-    /// Length: places farther apart do not meet. 0: 1e-7 of the greater diagonal; never less than the rounding.
-    pub tolerance: f64,
-    /// Most boxes. 0: 1,000,000.
-    pub budget: u64,
-}
-
-/// All hits, in the order of w (of the second shape).
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct CurveHits {
-    /// The hits.
-    pub hits: Vec<CurveHit>,
-    /// Boxes u0, u1, v0, v1, w0, w1 in which nothing could be decided.
-    pub undecided: Vec<[f64; 6]>,
-}
-
-impl CurveHits {
-    /// Whether nothing is missing.
-    pub fn is_complete(&self) -> bool {
-        self.undecided.is_empty()
-    }
-}
-
 impl IndexedCurve {
     /// Where this curve (u) meets another one (w): everything else of the two is proven to be farther apart than the tolerance.
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`]; [`Error::Cancelled`] when `poll` said so.
+    /// [`Error::OutOfMemory`]. When `poll` says stop the answer is what was found so far ([`CurveHits::stopped`]).
     pub fn meet_curve(
         &self,
         other: &IndexedCurve,
         options: &HitOptions,
         poll: &mut dyn FnMut() -> bool,
     ) -> Result<CurveHits, Error> {
-        let (a, b) = (self.index(poll)?, other.index(poll)?);
+        let (u, w) = (self.curve().domain(), other.curve().domain());
+        let Some((a, b)) = unless_stopped(self.index(poll), || other.index(poll))? else {
+            return Ok(CurveHits::unreached([u.0, u.1, 0.0, 0.0, w.0, w.1]));
+        };
         let frame = joint(&a.frame, &b.frame);
         let first = Body::curve(self, a, &frame);
         let second = Body::curve(other, b, &frame);
@@ -114,11 +51,25 @@ impl IndexedSurface {
         options: &HitOptions,
         poll: &mut dyn FnMut() -> bool,
     ) -> Result<CurveHits, Error> {
-        let (a, b) = (self.index(poll)?, curve.index(poll)?);
+        let ([u0, u1, v0, v1], w) = (self.surface().domain(), curve.curve().domain());
+        let Some((a, b)) = unless_stopped(self.index(poll), || curve.index(poll))? else {
+            return Ok(CurveHits::unreached([u0, u1, v0, v1, w.0, w.1]));
+        };
         let frame = joint(&a.frame, &b.frame);
         let first = Body::surface(self, a, &frame);
         let second = Body::curve(curve, b, &frame);
         Work::new(first, second, Target::Surface(self), curve, &frame, options).run(options, poll)
+    }
+}
+
+/// Both indexes; `None` when one of them was stopped.
+fn unless_stopped<A, B>(
+    first: Result<A, Error>,
+    second: impl FnOnce() -> Result<B, Error>,
+) -> Result<Option<(A, B)>, Error> {
+    match first.and_then(|first| Ok((first, second()?))) {
+        Err(Error::Cancelled) => Ok(None),
+        both => both.map(Some),
     }
 }
 
@@ -166,9 +117,9 @@ impl<'a> Work<'a> {
     ) -> Result<CurveHits, Error> {
         let mut budget = if options.budget > 0 { options.budget } else { DEFAULT_BUDGET };
         let mut found = Vec::new();
-        if !self.pairs.search(&mut budget, &mut found, poll) {
-            return Err(Error::Cancelled);
-        }
+        let mut stopped = !self.pairs.search(&mut budget, &mut found, poll);
+        let of_curves = matches!(self.target, Target::Curve(_));
+        let boxed = |item: &Found| boxed(item, of_curves);
         let mut out = CurveHits::default();
         let (mut crossings, mut together) = (Vec::new(), Vec::new());
         for item in found {
@@ -181,16 +132,24 @@ impl<'a> Work<'a> {
         let coarse = self.pairs.tolerance;
         let mut outer = Vec::new();
         for group in groups(together) {
+            stopped = stopped || poll();
+            if stopped {
+                out.undecided.extend(group.iter().map(boxed));
+                continue;
+            }
             if self.is_overlap(&group, &mut out) {
                 continue;
             }
             self.pairs.tolerance = self.fine;
             let mut finer = Vec::new();
             let places = group.iter().map(|item| item.places);
-            if !self.pairs.search_in(places, &mut budget, &mut finer, poll) {
-                return Err(Error::Cancelled);
-            }
+            stopped = !self.pairs.search_in(places, &mut budget, &mut finer, poll);
             self.pairs.tolerance = coarse;
+            if stopped {
+                // What is near was not told apart.
+                out.undecided.extend(group.iter().map(boxed));
+                continue;
+            }
             let is = |kind| move |item: &&Found| item.kind == kind;
             out.undecided.extend(finer.iter().filter(is(FoundKind::Undecided)).map(boxed));
             outer.push(hull(&group));
@@ -213,6 +172,7 @@ impl<'a> Work<'a> {
         for (low, high) in outer {
             self.widen(&mut out.hits, low, high);
         }
+        out.stopped = stopped;
         Ok(out)
     }
 
@@ -548,9 +508,11 @@ fn overlaps(a: [f64; 2], b: [f64; 2]) -> bool {
     a[0] <= b[1] && b[0] <= a[1]
 }
 
-fn boxed(item: &Found) -> [f64; 6] {
+/// u0, u1, v0, v1, w0, w1 of a box; a curve's u is the second parameter of a body.
+fn boxed(item: &Found, of_curves: bool) -> [f64; 6] {
     let (low, high) = (item.low, item.high);
-    [low[0], high[0], low[1], high[1], low[2], high[2]]
+    let [u, v] = if of_curves { [1, 0] } else { [0, 1] };
+    [low[u], high[u], low[v], high[v], low[2], high[2]]
 }
 
 /// Boxes that touch, directly or through others.

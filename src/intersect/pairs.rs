@@ -214,7 +214,7 @@ enum Verdict {
 }
 
 impl Pairs<'_> {
-    /// Searches all pairs of pieces; false when `poll` stopped it.
+    /// Searches all pairs of pieces; false when `poll` stopped it: what was not searched is undecided then.
     pub fn search(
         &self,
         budget: &mut u64,
@@ -226,22 +226,45 @@ impl Pairs<'_> {
             (0..body.count()).map(|k| body.half(k, body.whole(), net)).collect()
         };
         let (firsts, seconds) = (all(&self.first, &mut net), all(&self.second, &mut net));
+        let whole = seconds.iter().fold(Aabb::EMPTY, |whole, (_, aabb)| whole.union(*aabb));
+        let mut goes_on = true;
         for (a, box_a) in &firsts {
-            if poll() {
-                return false;
+            goes_on = goes_on && !poll();
+            if self.are_apart(box_a, &whole) {
+                continue;
+            }
+            if !goes_on {
+                out.push(self.unseen(a));
+                continue;
             }
             for (b, box_b) in &seconds {
-                if !self.are_apart(box_a, box_b)
-                    && !self.take_apart((*a, *b), &mut net, budget, out, poll)
-                {
-                    return false;
+                if self.are_apart(box_a, box_b) {
+                    continue;
+                }
+                if goes_on {
+                    goes_on = self.take_apart((*a, *b), &mut net, budget, out, poll);
+                } else {
+                    out.push(self.found(a, b, self.middle(a, b), FoundKind::Undecided));
                 }
             }
         }
-        true
+        goes_on
     }
 
-    /// Searches pairs of parts.
+    /// A piece of the first that was not searched, with all of the second.
+    fn unseen(&self, a: &Half) -> Found {
+        let first = |k: usize| self.first.global(a.piece as usize, [a.area[k], a.area[2 + k]]);
+        let ends = [
+            self.second.global(0, [0.0, 0.0])[1],
+            self.second.global(self.second.count() - 1, [0.0, 1.0])[1],
+        ];
+        let corner = |k: usize| [first(k)[0], first(k)[1], ends[k]];
+        let (low, high) = (corner(0), corner(1));
+        let places = [(a.piece, a.area), (0, self.second.whole())];
+        Found { at: low, low, high, kind: FoundKind::Undecided, places }
+    }
+
+    /// Searches pairs of parts; false when `poll` stopped it: what was not searched is undecided then.
     pub fn search_in(
         &self,
         places: impl Iterator<Item = [Place; 2]>,
@@ -250,14 +273,17 @@ impl Pairs<'_> {
         poll: &mut dyn FnMut() -> bool,
     ) -> bool {
         let mut net = Vec::new();
+        let mut goes_on = true;
         for [a, b] in places {
             let (a, _) = self.first.half(a.0 as usize, a.1, &mut net);
             let (b, _) = self.second.half(b.0 as usize, b.1, &mut net);
-            if !self.take_apart((a, b), &mut net, budget, out, poll) {
-                return false;
+            if goes_on {
+                goes_on = self.take_apart((a, b), &mut net, budget, out, poll);
+            } else {
+                out.push(self.found(&a, &b, self.middle(&a, &b), FoundKind::Undecided));
             }
         }
-        true
+        goes_on
     }
 
     fn take_apart(
@@ -276,6 +302,10 @@ impl Pairs<'_> {
                 Verdict::Halve => self.halve(a, b, net, &mut waiting, budget, out),
             }
             if *budget % 1024 == 1023 && poll() {
+                let left = |(a, b): &(Half, Half)| {
+                    self.found(a, b, self.middle(a, b), FoundKind::Undecided)
+                };
+                out.extend(waiting.iter().map(left));
                 return false;
             }
         }

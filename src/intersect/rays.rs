@@ -94,6 +94,8 @@ pub struct RayHits {
     pub hits: Vec<Hit>,
     /// Flags of each ray.
     pub flags: Vec<u32>,
+    /// Whether the caller said stop: rays not reached, and those of which the first hit alone is known, are not proven.
+    pub stopped: bool,
 }
 
 /// A surface prepared for rays. Immutable; any number of threads may use it.
@@ -255,10 +257,11 @@ impl Caster {
         batch::run(out, threads, None, &work, poll)
     }
 
-    /// All hits of many rays: those with more than one are cast a second time.
+    /// All hits of many rays: those with more than one are cast a second time. When `poll` says stop the answer is what was found so far
+    /// ([`RayHits::stopped`]).
     ///
     /// # Errors
-    /// As [`batch::run`]; when cancelled nothing is handed over.
+    /// [`Error::OutOfMemory`].
     pub fn all_hits(
         &self,
         rays: &(dyn Fn(usize) -> Ray + Sync),
@@ -269,20 +272,32 @@ impl Caster {
         let mut first: Vec<Hit> = Vec::new();
         first.try_reserve_exact(count).map_err(|_| Error::OutOfMemory)?;
         first.resize(count, Hit::unreached());
-        self.first_hits(rays, &mut first, threads, poll)?;
+        let mut stopped = match self.first_hits(rays, &mut first, threads, poll) {
+            Err(Error::Cancelled) => true,
+            done => {
+                done?;
+                false
+            }
+        };
         let total: usize = first.iter().map(|hit| hit.count as usize).sum();
         let mut all = RayHits::default();
         let reserve = |list: &mut Vec<usize>| list.try_reserve_exact(count + 1);
         reserve(&mut all.starts).map_err(|_| Error::OutOfMemory)?;
         all.hits.try_reserve_exact(total).map_err(|_| Error::OutOfMemory)?;
         all.flags.try_reserve_exact(count).map_err(|_| Error::OutOfMemory)?;
-        let mut memory = CastMemory::default();
+        let (mut memory, mut again) = (CastMemory::default(), 0usize);
         for (k, hit) in first.iter().enumerate() {
             all.starts.push(all.hits.len());
             if hit.count > 1 {
-                if k % batch::GROUP == 0 && poll(count) {
-                    return Err(Error::Cancelled);
-                }
+                stopped = stopped || again.is_multiple_of(batch::GROUP) && poll(count);
+                again += 1;
+            }
+            if hit.count > 1 && stopped {
+                all.flags.push(hit.flags & ray_flag::BAD_RAY | ray_flag::NOT_PROVEN);
+                all.hits.push(Hit { flags: hit.flags & !ray_flag::NOT_PROVEN, count: 1, ..*hit });
+                continue;
+            }
+            if hit.count > 1 {
                 all.flags.push(self.cast(&rays(k), &mut memory));
                 all.hits.extend_from_slice(&memory.hits);
                 continue;
@@ -294,6 +309,7 @@ impl Caster {
             }
         }
         all.starts.push(all.hits.len());
+        all.stopped = stopped;
         Ok(all)
     }
 

@@ -66,6 +66,8 @@ pub struct Section {
     pub overlaps: Vec<[f64; 4]>,
     /// Parameter boxes in which nothing could be decided.
     pub undecided: Vec<[f64; 4]>,
+    /// Whether the caller said stop: what was not looked at by then is undecided.
+    pub stopped: bool,
 }
 
 impl Section {
@@ -76,24 +78,27 @@ impl Section {
 }
 
 impl IndexedSurface {
-    /// Where this surface meets a plane or a quadric: all branches with proof; what could not be decided is listed.
+    /// Where this surface meets a plane or a quadric: all branches with proof; what could not be decided is listed. When `poll` says stop
+    /// that is what was not looked at ([`Section::stopped`]).
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`]; [`Error::Cancelled`] when `poll` said so.
+    /// [`Error::OutOfMemory`].
     pub fn section(
         &self,
         quadric: &Quadric,
         options: &SectionOptions,
         poll: &mut dyn FnMut() -> bool,
     ) -> Result<Section, Error> {
-        let index = self.index(poll)?;
-        Work::new(self, index, quadric, options).run(poll)
+        match self.index(poll) {
+            Err(Error::Cancelled) => Ok(self.unreached()),
+            index => Work::new(self, index?, quadric, options).run(poll),
+        }
     }
 
     /// Sections by many planes or quadrics over `threads` threads (0: all cores); `poll` gets the number done. Results do not depend on the threads.
     ///
     /// # Errors
-    /// As [`Self::section`]. When cancelled nothing is handed over.
+    /// As [`Self::section`].
     pub fn sections(
         &self,
         quadrics: &[Quadric],
@@ -101,7 +106,12 @@ impl IndexedSurface {
         threads: usize,
         poll: &mut dyn FnMut(usize) -> bool,
     ) -> Result<Vec<Section>, Error> {
-        let index = self.index(&mut || poll(0))?;
+        let index = match self.index(&mut || poll(0)) {
+            Err(Error::Cancelled) => {
+                return Ok(quadrics.iter().map(|_| self.unreached()).collect());
+            }
+            index => index?,
+        };
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let threads = if threads == 0 { cores } else { threads }.min(quadrics.len()).max(1);
         let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
@@ -112,7 +122,10 @@ impl IndexedSurface {
             loop {
                 let k = next.fetch_add(1, Ordering::Relaxed);
                 let Some(quadric) = quadrics.get(k) else { break };
-                let made = Work::new(self, index, quadric, options).run(poll);
+                let made = match stop.load(Ordering::Relaxed) {
+                    true => Ok(self.unreached()),
+                    false => Work::new(self, index, quadric, options).run(poll),
+                };
                 *results[k].lock().unwrap_or_else(PoisonError::into_inner) = Some(made);
                 done.fetch_add(1, Ordering::Relaxed);
             }
@@ -125,7 +138,7 @@ impl IndexedSurface {
                 let _ = std::thread::Builder::new().spawn_scoped(scope, task);
             }
             work(&mut || {
-                let wants = poll(done.load(Ordering::Relaxed));
+                let wants = stop.load(Ordering::Relaxed) || poll(done.load(Ordering::Relaxed));
                 stop.fetch_or(wants, Ordering::Relaxed);
                 wants
             });
@@ -133,9 +146,15 @@ impl IndexedSurface {
         let unwrap = |cell: Mutex<Option<Result<Section, Error>>>| {
             cell.into_inner()
                 .unwrap_or_else(PoisonError::into_inner)
-                .unwrap_or(Err(Error::Cancelled))
+                .unwrap_or_else(|| Ok(self.unreached()))
         };
         results.into_iter().map(unwrap).collect()
+    }
+
+    /// A section of which nothing is known.
+    fn unreached(&self) -> Section {
+        let undecided = vec![self.surface().domain()];
+        Section { undecided, stopped: true, ..Section::default() }
     }
 }
 
@@ -170,7 +189,9 @@ impl<'a> Work<'a> {
     }
 
     fn run(&self, poll: &mut dyn FnMut() -> bool) -> Result<Section, Error> {
-        let (mut cells, flat) = self.cells(poll)?;
+        let Some((mut cells, flat)) = self.cells(poll)? else {
+            return Ok(self.shape.unreached());
+        };
         let mut section = Section::default();
         if cells.iter().all(|cell| matches!(cell, Cell::Clear)) {
             return Ok(section);
@@ -183,8 +204,10 @@ impl<'a> Work<'a> {
                 Cell::Clear => {}
                 Cell::Flat => level.flat.push(patch),
                 Cell::Open(polynomial) => {
-                    if poll() {
-                        return Err(Error::Cancelled);
+                    // After a stop nothing is left to spend: the patch is listed.
+                    section.stopped = section.stopped || poll();
+                    if section.stopped {
+                        budget = 0;
                     }
                     let speeds = |s: f64, t: f64| self.speeds(patch, s, t);
                     let least = self.tolerance * self.index.frame.scale;
@@ -220,15 +243,15 @@ impl<'a> Work<'a> {
         Ok(section)
     }
 
-    /// The polynomial on each patch, and what counts as none.
-    fn cells(&self, poll: &mut dyn FnMut() -> bool) -> Result<(Vec<Cell>, f64), Error> {
+    /// The polynomial on each patch, and what counts as none; `None` after a stop.
+    fn cells(&self, poll: &mut dyn FnMut() -> bool) -> Result<Option<(Vec<Cell>, f64)>, Error> {
         let index = self.index;
         let mut cells = Vec::new();
         cells.try_reserve_exact(index.patches.len()).map_err(|_| Error::OutOfMemory)?;
         let mut flat = NONE * self.tolerance * index.frame.scale;
         for (k, patch) in index.patches.iter().enumerate() {
-            if k % 256 == 255 && poll() {
-                return Err(Error::Cancelled);
+            if k.is_multiple_of(256) && poll() {
+                return Ok(None);
             }
             let form = Form::new(self.quadric, &index.frame, patch.center);
             if form.is_clear_of(patch.radius) {
@@ -250,7 +273,7 @@ impl<'a> Work<'a> {
                 *cell = Cell::Flat;
             }
         }
-        Ok((cells, flat))
+        Ok(Some((cells, flat)))
     }
 
     fn speeds(&self, patch: usize, s: f64, t: f64) -> [f64; 2] {
@@ -315,7 +338,7 @@ impl<'a> Work<'a> {
                 .collect();
             self.cluster(cluster, &inside, cells, flat, level, section, undecided);
         }
-        self.special_nodes(edges, cells, level, section);
+        self.special_nodes(edges, cells, level, section, undecided);
     }
 
     fn cluster(
@@ -425,8 +448,16 @@ impl<'a> Work<'a> {
         best
     }
 
-    /// Corners and collapsed edges without branches are contacts; nodes with more than two arms are junctions.
-    fn special_nodes(&self, edges: &Edges, cells: &[Cell], level: &Level, section: &mut Section) {
+    /// Corners and collapsed edges without branches are contacts, unless branches may end there that were not looked for; nodes with
+    /// more than two arms are junctions.
+    fn special_nodes(
+        &self,
+        edges: &Edges,
+        cells: &[Cell],
+        level: &Level,
+        section: &mut Section,
+        undecided: &[bool],
+    ) {
         let mut arms = vec![0; level.nodes.len()];
         let mut places = vec![None; level.nodes.len()];
         for arc in &level.arcs {
@@ -441,7 +472,8 @@ impl<'a> Work<'a> {
                 continue;
             }
             for (k, corner) in edges.of_patch(patch).1.into_iter().enumerate() {
-                let Some(node) = corner.filter(|&node| arms[node] == 0) else { continue };
+                let is_alone = |&node: &usize| arms[node] == 0 && !undecided[node];
+                let Some(node) = corner.filter(is_alone) else { continue };
                 if !std::mem::replace(&mut done[node], true) {
                     let at = [f64::from(u8::from(k >= 2)), f64::from(u8::from(k % 2 == 1))];
                     let at = self.place(patch, at);

@@ -2,7 +2,7 @@
 
 use super::cluster::{Cluster, see};
 use super::join::{Stop, distance_to_chord};
-use super::search::{Open, Search};
+use super::search::{Open, OpenPair, Search, Tip};
 use super::tangent::{Ridge, is_near, unfollowed};
 use super::watch::Watch;
 use super::{Branch, Contact, ContactKind, End, Intersection, MarchPoint, Region};
@@ -53,23 +53,46 @@ impl<'a, 'b> Maker<'a, 'b> {
         norm(sub(self.a.evaluate(u, v), self.b.evaluate(s, t)))
     }
 
+    /// Boxes in which the surfaces coincide.
+    fn areas(&mut self) {
+        let areas = self.search.open.iter().filter(|pair| pair.why == Open::Area);
+        self.out.overlaps.extend(areas.map(|pair| region(pair.low, pair.high)));
+    }
+
+    /// Lists boxes that were not divided further, as too many to look at, or after a stop.
+    pub fn list(&mut self) {
+        self.areas();
+        let others = self.search.open.iter().filter(|pair| pair.why != Open::Area);
+        self.out.undecided.extend(others.map(|pair| region(pair.low, pair.high)));
+    }
+
+    /// Lists the boxes of a group that were not reached.
+    fn left_in(&mut self, group: &Cluster) {
+        let is_in = |pair: &&OpenPair| {
+            let inside = |q| group.low[q] <= pair.low[q] && pair.high[q] <= group.high[q];
+            pair.why == Open::Left && (0..4).all(inside)
+        };
+        let left = self.search.open.iter().filter(is_in);
+        self.out.undecided.extend(left.map(|pair| region(pair.low, pair.high)));
+    }
+
     /// What is in the groups of boxes that were not divided further.
     pub fn classify(&mut self, groups: &[Cluster], ridges: &[Ridge], watch: &Watch) {
-        for pair in self.search.open.iter().filter(|pair| pair.why == Open::Area) {
-            self.out.overlaps.push(region(pair.low, pair.high));
-        }
+        self.areas();
         let beside = unfollowed(self.search, ridges);
         for (k, group) in groups.iter().enumerate() {
-            // One is a search for a place of least gap.
-            if watch.stops(groups.len() - k) {
-                return;
-            }
-            let [area, curve, flat, budget] = group.has;
+            let [area, curve, flat, left] = group.has;
             let is_followed = !beside.iter().any(|&at| group.holds(at));
-            if area || (curve && !flat && !budget && is_followed) {
+            if area && left {
+                // Beside a coincidence everything is its rim, but not what was never looked at.
+                self.left_in(group);
+            }
+            if area || (curve && !flat && !left && is_followed) {
                 continue;
             }
-            let seen = if budget { None } else { see(self.search, group) };
+            // One is a search for a place of least gap.
+            let looked_at = !left && !watch.stops(groups.len() - k);
+            let seen = if looked_at { see(self.search, group) } else { None };
             match seen {
                 Some(seen) if group.size <= 0.05 => {
                     if ridges.iter().any(|ridge| {
@@ -112,8 +135,17 @@ impl<'a, 'b> Maker<'a, 'b> {
         norm(sub(h, l)) / norm(sub(high, low))
     }
 
+    /// A collapsed edge that came near the other surface, and was not looked at.
+    pub fn unseen_tip(&mut self, Tip { whose, side, inner }: Tip) {
+        let [a, b] = [self.a, self.b].map(Surface::domain);
+        let mut range = std::array::from_fn(|k| [a, b][k / 4][k % 4]);
+        // From the edge as far as the surface was taken for a point.
+        range[4 * whose + (side ^ 1)] = inner;
+        self.out.undecided.push(Region { range });
+    }
+
     /// A collapsed edge that came near the other surface: a contact, if it lies on it.
-    pub fn tip(&mut self, (whose, side): (usize, usize), surfaces: [&IndexedSurface; 2]) {
+    pub fn tip(&mut self, Tip { whose, side, .. }: Tip, surfaces: [&IndexedSurface; 2]) {
         let own = surfaces[whose].surface();
         let [u0, u1, v0, v1] = own.domain();
         let at = [[u0, v0], [u1, v0], [u0, v0], [u0, v1]][side];
@@ -126,7 +158,7 @@ impl<'a, 'b> Maker<'a, 'b> {
             None,
         );
         let size = self.search.tip_size() / self.scale();
-        if foot.lower_bound > 2.0 * size {
+        if foot.lower_bound > (2.0 * size).max(self.search.touching_gap(0.0) / self.scale()) {
             return;
         }
         let other = [foot.u, foot.v];

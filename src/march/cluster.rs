@@ -45,7 +45,7 @@ fn touch(a: &OpenPair, b: &OpenPair) -> bool {
     })
 }
 
-/// Groups of boxes that touch one another; `None` when there are too many.
+/// Groups of boxes that touch one another; `None` when there are too many, or the watch says stop.
 pub fn clusters(search: &Search, watch: &Watch) -> Option<Vec<Cluster>> {
     let open = &search.open;
     if open.len() > MOST_BOXES {
@@ -92,7 +92,7 @@ pub fn clusters(search: &Search, watch: &Watch) -> Option<Vec<Cluster>> {
             Open::Area => 0,
             Open::Curve => 1,
             Open::Flat => 2,
-            Open::Budget => 3,
+            Open::Left => 3,
         }] = true;
         cluster.size = cluster.size.max(open[k].size);
     }
@@ -116,7 +116,7 @@ pub fn clusters(search: &Search, watch: &Watch) -> Option<Vec<Cluster>> {
 pub fn see(search: &Search, cluster: &Cluster) -> Option<Seen> {
     let [a, b] = search.surfaces;
     let middle = [0, 1, 2, 3].map(|q| 0.5 * (cluster.low[q] + cluster.high[q]));
-    let floor = 4.0 * search.floor;
+    let floor = search.touching_gap(4.0);
     let place = |at: [f64; 4]| {
         let (x, y) = (a.evaluate(at[0], at[1]), b.evaluate(at[2], at[3]));
         (Place { x: scaled(add(x, y), 0.5), at }, norm(sub(x, y)))

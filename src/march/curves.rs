@@ -83,8 +83,8 @@ fn is_seam(a: &MarchPoint, b: &MarchPoint, near: f64) -> bool {
 }
 
 /// The curves of a branch: one set between two seams or corners. `tolerance` is what the fit aims at, a length; where it is missed,
-/// [`BranchCurves::error`] says so, and is not more than that of the chords between the points. `poll(done, left)` is asked now and then
-/// whether to stop.
+/// [`BranchCurves::error`] says so, and is not more than that of the chords between the points. `poll(points done, points left
+/// of this part)` is asked now and then whether to stop.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for a tolerance that is not a positive length, or a branch of a single point; [`Error::Cancelled`].
@@ -110,6 +110,8 @@ pub fn curves(
                 let points = &points[start..k];
                 let mut from = 0;
                 for to in corners(a, b, points).into_iter().chain([points.len() - 1]) {
+                    watch.asks((start + from) as u64, (points.len() - from) as u64);
+                    watch.checked()?;
                     all.push(run(a, b, &points[from..=to], tolerance, &watch)?);
                     from = to;
                 }
@@ -235,7 +237,7 @@ impl<'a> Run<'a> {
         let list = &self.list;
         let base = interpolate(3.min(list.len() - 1), &self.parameters, list)?.spline;
         let function = |t: f64| {
-            if watch.stops(0) {
+            if watch.stops(list.len()) {
                 return None;
             }
             // Ends are what they are; places between go to the nearest point of the curve.

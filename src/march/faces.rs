@@ -125,6 +125,8 @@ enum Label {
 struct Piece {
     from: MarchPoint,
     to: MarchPoint,
+    /// How far its parameters may leave their straight line.
+    bulge: [f64; 4],
     label: Label,
     jump: bool,
 }
@@ -179,7 +181,7 @@ impl Cutter<'_, '_> {
         let known = !matches!(label, Label::Unknown(_));
         let small = norm(sub(to.point, from.point)) <= self.point;
         if known || small || self.pieces.len() >= MOST_PIECES || self.watch.stops(0) {
-            self.pieces.push(Piece { from, to, label, jump });
+            self.pieces.push(Piece { from, to, bulge, label, jump });
             return;
         }
         // As far as rounding lets it be said.
@@ -196,7 +198,7 @@ impl Cutter<'_, '_> {
                 self.label(from, middle, less, k, jump);
                 self.label(middle, to, less, k, false);
             }
-            None => self.pieces.push(Piece { from, to, label, jump }),
+            None => self.pieces.push(Piece { from, to, bulge, label, jump }),
         }
     }
 
@@ -205,9 +207,7 @@ impl Cutter<'_, '_> {
         self.pieces.clear();
         let mut jump = false;
         for (i, pair) in branch.points.windows(2).enumerate() {
-            if self.watch.stops(branch.points.len() - i) {
-                return;
-            }
+            self.watch.stops(branch.points.len() - i);
             let (from, to) = (pair[0], pair[1]);
             let k = branch.held.get(i).copied();
             if k == Some(Branch::JUMP) {
@@ -237,8 +237,8 @@ impl Cutter<'_, '_> {
     fn doubt(&mut self, piece: &Piece) {
         let (p, q) = (parameters(&piece.from), parameters(&piece.to));
         let range = std::array::from_fn(|n| {
-            let (a, b) = (p[n / 2], q[n / 2]);
-            if n % 2 == 0 { a.min(b) } else { a.max(b) }
+            let (a, b, by) = (p[n / 2], q[n / 2], piece.bulge[n / 2]);
+            if n % 2 == 0 { a.min(b) - by } else { a.max(b) + by }
         });
         self.undecided.push(Area { range });
         self.unproven = true;
@@ -272,10 +272,12 @@ impl Cutter<'_, '_> {
             let is_in = |piece: &&Piece| piece.label == Label::In;
             let (head, tail) = (run.iter().position(is_in), run.iter().rposition(is_in));
             let (Some(head), Some(tail)) = (head, tail) else {
-                // Unknown between what is out: a trim is touched, or something small is lost; not where the branch ends.
-                if at > 0 && end < n {
-                    run.iter().for_each(|piece| self.doubt(piece));
-                }
+                // Unknown between what is out: a trim is touched, or something small is lost; not where the branch ends, unless it is
+                // long: then it was not looked at further.
+                let inner = at > 0 && end < n;
+                let long = |piece: &Piece| norm(sub(piece.to.point, piece.from.point)) > self.point;
+                let doubtful: Vec<_> = run.iter().filter(|piece| inner || long(piece)).collect();
+                doubtful.into_iter().for_each(|piece| self.doubt(piece));
                 at = end.max(at) + 1;
                 continue;
             };
@@ -297,9 +299,12 @@ impl Cutter<'_, '_> {
                     self.doubt(piece);
                 }
             }
-            // Where a trim ends it, or what the branch ends with.
-            let whose = |piece: Option<&&Piece>| match piece.map(|p| p.label) {
-                Some(Label::Unknown(half)) => End::Trim(half),
+            // Where a trim ends it, or what the branch ends with; a long piece beside it was not looked at further.
+            let whose = |piece: Option<&&Piece>| match piece {
+                Some(piece) if norm(sub(piece.to.point, piece.from.point)) > self.point => {
+                    End::Undecided
+                }
+                Some(Piece { label: Label::Unknown(half), .. }) => End::Trim(*half),
                 _ => End::Trim(0),
             };
             let starts = at == 0 && !branch.is_closed();
@@ -357,7 +362,7 @@ pub fn intersect_faces(
         (Some(a), Some(b)) => intersect(a, b, options, poll)?,
         _ => walked(halves[0].shape, halves[1].shape, options.checked()?.chord, poll)?,
     };
-    let watch = Watch::new(poll);
+    let watch = Watch::after(found.stopped, poll);
     let size = |face: &TrimmedSurface| face.support().bounding_box().map(|b| b.diagonal());
     let point = POINT * size(a)?.min(size(b)?);
     let mut cutter = Cutter {
@@ -372,7 +377,6 @@ pub fn intersect_faces(
     let mut branches = Vec::new();
     for branch in &found.branches {
         cutter.cut(branch, &mut branches);
-        watch.checked()?;
     }
     // Contacts that both faces hold, and those in which a branch ends.
     let mut number = vec![None; found.contacts.len()];
@@ -395,13 +399,18 @@ pub fn intersect_faces(
         if cutter.halves.iter().any(|half| half.map.is_some()) {
             branch.bulge = [f64::INFINITY; 4];
         }
+        // Cutting made new points.
+        if cutter.halves.iter().any(|half| half.region.is_some()) {
+            let apart =
+                |p: &MarchPoint| norm(sub(a.support().evaluate(p.uv), b.support().evaluate(p.st)));
+            branch.gap = branch.points.iter().map(apart).fold(0.0, f64::max);
+        }
     }
     contacts.iter_mut().for_each(|contact| cutter.mapped(&mut contact.place));
     let mut out = Intersection { branches, contacts, ..found.clone() };
     let (mut overlaps, mut undecided) = (found.overlaps, found.undecided);
     overlaps.retain(|area| watch.stops(0) || !cutter.is_outside(&area.range));
     undecided.retain(|area| watch.stops(0) || !cutter.is_outside(&area.range));
-    watch.checked()?;
     undecided.append(&mut cutter.undecided);
     for area in overlaps.iter_mut().chain(&mut undecided) {
         let r = area.range;
@@ -410,6 +419,7 @@ pub fn intersect_faces(
         area.range = std::array::from_fn(|k| if k < 4 { uv[k] } else { st[k - 4] });
     }
     (out.overlaps, out.undecided) = (overlaps, undecided);
-    out.is_proven = settled(&out) && !cutter.unproven;
+    out.stopped = watch.stopped();
+    out.is_proven = settled(&out) && !cutter.unproven && out.holds(options.tolerance);
     Ok(out)
 }

@@ -23,7 +23,7 @@ pub enum WalkEnd {
     Border,
     /// The tangent planes are parallel: a singular point.
     Singular,
-    /// The corrector failed, or there were too many points.
+    /// The corrector failed, there were too many points, or the caller said stop.
     Lost,
 }
 
@@ -49,7 +49,8 @@ fn direction(a: &dyn Shape, b: &dyn Shape, at: [f64; 4]) -> Option<(Vector, [f64
     Some((d, [u, v, s, t]))
 }
 
-/// Walks from a point of the intersection near `start` until both ends are known. `first` is the first step, `chord` the tolerance.
+/// Walks from a point of the intersection near `start` until both ends are known, or `poll` says stop at a point. `first` is the first
+/// step, `chord` the tolerance.
 pub fn follow(
     a: &dyn Shape,
     b: &dyn Shape,
@@ -57,16 +58,17 @@ pub fn follow(
     corrector: Corrector,
     first: f64,
     chord: f64,
+    poll: &mut dyn FnMut() -> bool,
 ) -> Option<Walk> {
     let tolerance = 1e-2 * chord;
     let begin = correct(a, b, start, corrector, tolerance, None)?.at;
     let mut ahead = vec![begin];
-    let end = one_way(a, b, begin, 1.0, corrector, first, chord, &mut ahead);
+    let end = one_way(a, b, begin, 1.0, corrector, first, chord, poll, &mut ahead);
     if end == WalkEnd::Closed {
         return Some(Walk { places: ahead, ends: [end; 2] });
     }
     let mut behind = vec![begin];
-    let other = one_way(a, b, begin, -1.0, corrector, first, chord, &mut behind);
+    let other = one_way(a, b, begin, -1.0, corrector, first, chord, poll, &mut behind);
     behind.reverse();
     behind.pop();
     behind.extend(ahead);
@@ -81,6 +83,7 @@ fn one_way(
     corrector: Corrector,
     first: f64,
     chord: f64,
+    poll: &mut dyn FnMut() -> bool,
     out: &mut Vec<[f64; 4]>,
 ) -> WalkEnd {
     let (da, db) = (a.domain(), b.domain());
@@ -89,7 +92,7 @@ fn one_way(
     let (mut at, mut h) = (begin, first);
     let Some((mut d, mut step)) = direction(a, b, at) else { return WalkEnd::Singular };
     while out.len() < MOST_POINTS {
-        if h < 1e-10 * first {
+        if h < 1e-10 * first || poll() {
             return WalkEnd::Lost;
         }
         let wish = [0, 1, 2, 3].map(|k| at[k] + sign * h * step[k]);

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Points between are solutions on the same arc, so a refinement cannot jump to another branch, and the bounds of the arc say how far
-//! it may leave their chords.
+//! it may leave their chords. After a stop arcs are still joined, which takes little beside finding them, but no points are put between.
 
 use super::arc::Arc;
 use super::pieces::Pieces;
@@ -106,9 +106,7 @@ impl<'a, 'b, 'w> Joiner<'a, 'b, 'w> {
         let (mut chains, mut points) = (Vec::new(), Vec::new());
         let count = self.search.found.len();
         for k in 0..count {
-            if self.watch.stops(count - k) {
-                break;
-            }
+            self.watch.stops(count - k);
             let arc = &self.search.found[k].arc;
             if self.used[k] || arc.x[1] - arc.x[0] < 1e-9 {
                 continue;
@@ -238,9 +236,7 @@ impl<'a, 'b, 'w> Joiner<'a, 'b, 'w> {
         let (mut k, mut x, mut jump) = (start, x0, false);
         let mut steps: Vec<Step> = Vec::new();
         for _ in 0..4 * self.search.found.len() + 16 {
-            if self.watch.stops(0) {
-                break;
-            }
+            self.watch.stops(0);
             let found = &self.search.found[k];
             let sign = self.sign(k, forward);
             self.used[k] = true;
@@ -335,15 +331,21 @@ impl<'a, 'b, 'w> Joiner<'a, 'b, 'w> {
             }
             let whole = arc.bulge(step.from, step.to, 1).0;
             let parts = (whole / (0.999 * self.chord)).sqrt().ceil().clamp(1.0, MOST_CHORDS);
-            let (far, aside) = arc.bulge(step.from, step.to, parts as usize);
-            chord = chord.max(far);
             let widths = [a.width(arc.patches[0]), b.width(arc.patches[1])];
-            bulge = [0, 1, 2, 3].map(|q| bulge[q].max(aside[q] * widths[q / 2][q % 2]));
+            let mut holds = |(far, aside): (f64, [f64; 4])| {
+                chord = chord.max(far);
+                bulge = [0, 1, 2, 3].map(|q| bulge[q].max(aside[q] * widths[q / 2][q % 2]));
+            };
+            holds(arc.bulge(step.from, step.to, parts as usize));
+            let mut last = step.from;
             for k in 1..parts as usize {
                 if self.watch.stops(steps.len() - n) {
+                    // What is left of the arc is one chord.
+                    holds(arc.bulge(last, step.to, 1));
                     break;
                 }
-                places.push(at(step.from + k as f64 / parts * (step.to - step.from)));
+                last = step.from + k as f64 / parts * (step.to - step.from);
+                places.push(at(last));
             }
             places.push(at(step.to));
             held.resize(places.len() - 1, arc.k as u8);

@@ -51,11 +51,10 @@ impl Side<'_, '_, '_> {
         let (touch, _) = look(own, other, self.at(t), near)?;
         let at = touch.at;
         let (x, y) = (own.evaluate(at[0], at[1]), other.evaluate(at[2], at[3]));
-        let floor = 2.0 * self.search.floor;
-        let lies = touch.gap.abs() <= floor
+        let lies = touch.gap.abs() <= self.search.touching_gap(2.0)
             && touch.slope <= 1e-6
             && touch.rank() == 0
-            && norm(sub(x, y)) <= 4.0 * floor;
+            && norm(sub(x, y)) <= self.search.touching_gap(8.0);
         let at = if self.own == 0 { at } else { [at[2], at[3], at[0], at[1]] };
         lies.then(|| Place { x: scaled(add(x, y), 0.5), at })
     }
@@ -173,7 +172,7 @@ pub fn rims(search: &Search, chord: f64, watch: &Watch) -> Vec<Rim> {
             let mut found = Vec::new();
             one.rims(chord, &mut found);
             // Where borders of both run together the line is there already.
-            let near = 64.0 * search.floor;
+            let near = search.touching_gap(64.0);
             found.retain(|line| {
                 let middle = line[line.len() / 2].x;
                 !lines.iter().any(|l| {
@@ -195,7 +194,7 @@ fn meets(line: &[Place], other: &[Place], near: f64) -> bool {
 
 fn joined(mut lines: Vec<Vec<Place>>, search: &Search) -> Vec<Rim> {
     // Ends were found by what is rounding: they are as far apart as that lets them be.
-    let near = 1e-6 + 64.0 * search.floor;
+    let near = 1e-6 + search.touching_gap(64.0);
     let mut rims = Vec::new();
     while let Some(mut line) = lines.pop() {
         loop {

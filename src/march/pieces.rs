@@ -357,6 +357,17 @@ impl Part {
         self.bounds().bend
     }
 
+    /// Sine of the angle by which normals may turn from that in the middle; 1 and more: any.
+    pub fn tilt(&self) -> f64 {
+        let Some(bends) = self.bends() else { return f64::INFINITY };
+        let slopes = self.slope.map(norm);
+        let change = [bends.size[0] + bends.size[1], bends.size[1] + bends.size[2]];
+        let turned = change[0] * slopes[1] + slopes[0] * change[1] + change[0] * change[1];
+        // Of a length that is none: not a number, or infinite.
+        let tilt = turned / norm(cross(self.slope[0], self.slope[1]));
+        if tilt.is_nan() { f64::INFINITY } else { tilt }
+    }
+
     fn bounds(&self) -> &Bounds {
         self.bounds.get_or_init(|| {
             let bends = self.bounded();

@@ -12,11 +12,10 @@
 
 use super::arc::{Arc, Clip};
 use super::contact::{into_domain, look, settle};
-use super::pair::{Verdict, judge};
+use super::pair::{Verdict, judge, misses};
 use super::pieces::{Part, Pieces};
 use super::watch::Watch;
 use crate::bounds::{Aabb, HALF_ULP, Vector, cross, dot, norm, sub};
-use crate::error::Error;
 use crate::surface::Surface;
 
 /// Halvings of a pair after which touching along a curve is looked for.
@@ -32,7 +31,7 @@ const BENDS_APART: f64 = 0.02;
 const GROUP: u64 = 256;
 
 /// Parts of a surface are at most this many: what they hold is memory.
-const MOST_PARTS: usize = 2_000_000;
+pub const MOST_PARTS: usize = 2_000_000;
 
 /// What a pair that was not divided further is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,8 +42,19 @@ pub enum Open {
     Area,
     /// Both parts are flat to the last digits, and still nothing is known.
     Flat,
-    /// The budget ran out.
-    Budget,
+    /// It was not reached: the budget ran out, or the caller said stop.
+    Left,
+}
+
+/// A collapsed edge that comes near the other surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Tip {
+    /// A (0) or B (1).
+    pub whose: usize,
+    /// 0 to 3: u low, u high, v low, v high.
+    pub side: usize,
+    /// As far as this parameter the surface was taken for a point.
+    pub inner: f64,
 }
 
 /// A pair that was not divided further: a box of u, v, s, t.
@@ -77,22 +87,27 @@ pub struct Search<'a> {
     /// B in pieces.
     pub b: Pieces,
     /// How far two positions may be off together.
-    error: f64,
+    pub error: f64,
     /// Lengths below this are rounding.
     pub floor: f64,
+    /// The caller's point tolerance; 0: none.
+    tolerance: f64,
     /// Arcs, in the order in which they were found.
     pub found: Vec<Found>,
     /// What is open.
     pub open: Vec<OpenPair>,
-    /// Collapsed edges that come near the other surface: whose (0, 1), and which side.
-    pub tips: Vec<(usize, usize)>,
+    /// Collapsed edges that come near the other surface.
+    pub tips: Vec<Tip>,
     /// Pairs judged.
     pub judged: u64,
+    /// Whether the budget ran out.
+    pub exhausted: bool,
 }
 
 impl<'a> Search<'a> {
-    /// Prepares two surfaces of size about one around the origin; `noise`: what their poles may be off.
-    pub fn new(surfaces: [&'a Surface; 2], noise: f64) -> Self {
+    /// Prepares two surfaces of size about one around the origin; `noise`: what their poles may be off; `tolerance`: what is nearer
+    /// may count as touching.
+    pub fn new(surfaces: [&'a Surface; 2], noise: f64, tolerance: f64) -> Self {
         let (a, b) = (Pieces::new(surfaces[0]), Pieces::new(surfaces[1]));
         let floor = 64.0 * HALF_ULP + 2.0 * (noise + a.error + b.error);
         let error = a.error + b.error + noise;
@@ -102,47 +117,65 @@ impl<'a> Search<'a> {
             b,
             error,
             floor,
+            tolerance,
             found: Vec::new(),
             open: Vec::new(),
             tips: Vec::new(),
             judged: 0,
+            exhausted: false,
         }
     }
 
-    /// Judges all pairs, at most `budget`.
-    ///
-    /// # Errors
-    /// [`Error::Cancelled`] when the watch said so.
-    pub fn run(&mut self, budget: u64, watch: &Watch) -> Result<(), Error> {
+    /// Gaps up to this are none: so many times what rounding does, or the caller's tolerance.
+    pub fn touching_gap(&self, times: f64) -> f64 {
+        (times * self.floor).max(self.tolerance)
+    }
+
+    /// Judges all pairs, at most `budget`, until the watch says stop; what waits then is left open.
+    pub fn run(&mut self, budget: u64, watch: &Watch) {
         let mut waiting = self.first_pairs();
         let mut level = 0;
         while !waiting.is_empty() {
             let mut next = Vec::new();
             for (k, &pair) in waiting.iter().enumerate() {
-                if self.judged >= budget || self.a.parts.len() + self.b.parts.len() > MOST_PARTS {
+                self.exhausted =
+                    self.judged >= budget || self.a.parts.len() + self.b.parts.len() > MOST_PARTS;
+                let left = (waiting.len() - k + next.len()) as u64;
+                let is_asked = !self.exhausted && self.judged.is_multiple_of(GROUP);
+                if self.exhausted || is_asked && watch.asks(self.judged, left) {
                     for &pair in waiting[k..].iter().chain(&next) {
-                        self.leave(pair, Open::Budget);
+                        self.leave(pair, Open::Left);
                     }
-                    return Ok(());
-                }
-                if self.judged.is_multiple_of(GROUP)
-                    && watch.asks(self.judged, (waiting.len() - k + next.len()) as u64)
-                {
-                    return Err(Error::Cancelled);
+                    return;
                 }
                 self.step(pair, level, &mut next);
             }
             waiting = next;
             level += 1;
         }
-        Ok(())
+    }
+
+    /// Whether two parts that do not meet may be nearer than the caller's tolerance where they are parallel.
+    fn may_touch(&self, a: &Part, b: &Part) -> bool {
+        self.may_be_parallel(a, b) && !misses(a, b, self.error + self.tolerance)
+    }
+
+    /// Whether two parts may be parallel somewhere, as far as the caller's tolerance counts; false where there is none.
+    fn may_be_parallel(&self, a: &Part, b: &Part) -> bool {
+        if self.tolerance == 0.0 {
+            return false;
+        }
+        // Planes that part by less than the tolerance over these parts are parallel here.
+        let parting = self.tolerance / size(a).min(size(b)).max(1e-300);
+        norm(cross(a.normal, b.normal)) <= a.tilt() + b.tilt() + parting
     }
 
     /// Pairs of patches whose boxes meet: blocks of B's patches first.
     fn first_pairs(&self) -> Vec<(u32, u32)> {
         const BLOCK: usize = 32;
+        let near = self.touching_gap(1.0);
         let meets = |a: &Aabb, b: &Aabb| {
-            (0..3).all(|k| a.low[k] <= b.high[k] + self.floor && b.low[k] <= a.high[k] + self.floor)
+            (0..3).all(|k| a.low[k] <= b.high[k] + near && b.low[k] <= a.high[k] + near)
         };
         let of = |pieces: &Pieces, k: usize| pieces.parts[pieces.patches[k].root as usize].aabb;
         let blocks: Vec<Aabb> = (0..self.b.patches.len().div_ceil(BLOCK))
@@ -173,6 +206,7 @@ impl<'a> Search<'a> {
         let (a, b) = (&self.a.parts[i as usize], &self.b.parts[j as usize]);
         let by_size = size(a) >= size(b);
         let halve_first = match judge([&self.a, &self.b], [a, b], self.error) {
+            Verdict::Empty if self.may_touch(a, b) => by_size,
             Verdict::Empty => return,
             Verdict::Arc(arc) => match self.keep(*arc, [i, j]) {
                 true => return,
@@ -181,23 +215,19 @@ impl<'a> Search<'a> {
             Verdict::Halve(first) => first,
         };
         let (a, b) = (&self.a.parts[i as usize], &self.b.parts[j as usize]);
-        if let Some(tip) = self.tip(a, b) {
-            if !self.tips.contains(&tip) {
-                self.tips.push(tip);
-            }
-            return;
+        if let Some((whose, side)) = self.tip(a, b) {
+            return self.keep_tip(whose, side, [i, j]);
         }
-        let thin = self.floor;
+        // What crosses at an angle is told apart as far as the arithmetic can.
+        let thin = if self.may_be_parallel(a, b) { self.touching_gap(1.0) } else { self.floor };
         let flat = a.bend().min(1e9) + b.bend().min(1e9) <= thin
             || is_slab(a.normal, a, b, thin)
             || is_slab(b.normal, a, b, thin);
         let narrow = |p: &Part| (0..2).any(|k| p.high[k] - p.low[k] < 1e-12);
         if flat || narrow(a) || narrow(b) {
-            for tip in
-                [a.pole.map(|side| (0, side)), b.pole.map(|side| (1, side))].into_iter().flatten()
-            {
-                if !self.tips.contains(&tip) {
-                    self.tips.push(tip);
+            for (whose, side) in [a.pole, b.pole].into_iter().enumerate() {
+                if let Some(side) = side {
+                    self.keep_tip(whose, side, [i, j]);
                 }
             }
             let (a, b) = (&self.a.parts[i as usize], &self.b.parts[j as usize]);
@@ -224,6 +254,20 @@ impl<'a> Search<'a> {
     fn tip(&self, a: &Part, b: &Part) -> Option<(usize, usize)> {
         let is_tip = |part: &Part| part.pole.filter(|_| part.aabb.diagonal() <= self.tip_size());
         is_tip(a).map(|side| (0, side)).or_else(|| is_tip(b).map(|side| (1, side)))
+    }
+
+    /// Keeps a collapsed edge, with all that is as good as a point there.
+    fn keep_tip(&mut self, whose: usize, side: usize, [i, j]: [u32; 2]) {
+        let (pieces, k) = if whose == 0 { (&self.a, i) } else { (&self.b, j) };
+        let part = &pieces.parts[k as usize];
+        let [low, high] = [part.low, part.high].map(|at| pieces.global(part.patch, at)[side / 2]);
+        // Low sides are even.
+        let (outer, inner) = if side & 1 == 0 { (low, high) } else { (high, low) };
+        match self.tips.iter_mut().find(|tip| (tip.whose, tip.side) == (whose, side)) {
+            Some(tip) if (tip.inner - outer).abs() < (inner - outer).abs() => tip.inner = inner,
+            Some(_) => {}
+            None => self.tips.push(Tip { whose, side, inner }),
+        }
     }
 
     /// Keeps the part of an arc that is inside the patches; false when that is not clear.
@@ -285,7 +329,8 @@ impl<'a> Search<'a> {
         let start = self.middle(a, b);
         let reach = size(a).max(size(b));
         let touch = settle(sa, sb, start, reach)?;
-        if touch.gap.abs() > self.floor || touch.slope > 1e-7 || touch.rank() != 1 {
+        let none = self.touching_gap(1.0);
+        if touch.gap.abs() > none || touch.slope > 1e-7 || touch.rank() != 1 {
             return None;
         }
         // The same must hold a little farther along the curve, on both sides.
@@ -297,7 +342,7 @@ impl<'a> Search<'a> {
                 let there = sa.evaluate(t.at[0], t.at[1]);
                 let moved =
                     norm(sub(there, sa.evaluate(touch.at[0], touch.at[1]))) > 0.25 * by.abs();
-                moved && t.gap.abs() <= self.floor && t.rank() == 1 && t.slope <= 1e-7
+                moved && t.gap.abs() <= none && t.rank() == 1 && t.slope <= 1e-7
             })
         };
         (goes_on(1.0) && goes_on(-1.0)).then_some(Open::Curve)
@@ -329,7 +374,8 @@ impl<'a> Search<'a> {
             if apart > 2.0 * touch.gap.abs() + 8.0 * self.floor {
                 continue;
             }
-            if touch.gap.abs() > 2.0 * self.floor || touch.slope > 1e-6 || touch.rank() > 0 {
+            let none = self.touching_gap(2.0);
+            if touch.gap.abs() > none || touch.slope > 1e-6 || touch.rank() > 0 {
                 return None;
             }
             seen += 1;

@@ -44,7 +44,7 @@ impl Tracer<'_, '_, '_> {
         let touch = settle(a, b, start, reach)?;
         let at = touch.at;
         let apart = norm(sub(a.evaluate(at[0], at[1]), b.evaluate(at[2], at[3])));
-        let floor = 4.0 * self.search.floor;
+        let floor = self.search.touching_gap(4.0);
         (touch.gap.abs() <= floor && apart <= floor && touch.rank() == 1).then_some(touch)
     }
 

@@ -11,10 +11,15 @@
 
 use super::pair::misses;
 use super::pieces::{Part, Pieces};
+use super::search::MOST_PARTS;
 use super::shape::Shape;
 use crate::bounds::{Aabb, Vector, add, cross, dot, norm, scaled, sub};
+use crate::error::Error;
 use crate::surface::Surface;
 use std::collections::HashMap;
+
+/// Pairs between two looks at whether to stop.
+const GROUP: u64 = 1024;
 
 /// A triangle in space with the parameters of its corners.
 #[derive(Clone, Copy)]
@@ -137,15 +142,29 @@ fn node_gap(a: &Pieces, b: &Pieces) -> f64 {
     1e-9 * size(a).min(size(b))
 }
 
+/// What a discrete method sees.
+#[derive(Default)]
+pub struct Discrete {
+    /// Polylines.
+    pub lines: Vec<Polyline>,
+    /// Pairs of parts, or rows of cells, looked at.
+    pub looked: u64,
+    /// Whether the budget ran out: what was left then was taken as flat.
+    pub exhausted: bool,
+    /// Whether the caller said stop: what was left then is not in the lines.
+    pub stopped: bool,
+}
+
 /// Subdivision by hulls: to `depth` halvings of each surface, or, when `flat` is a length, until every piece is as flat as that.
-/// At most `budget` pairs; what is left then is taken as it is.
+/// At most `budget` pairs; what is left then is taken as it is. `poll(looked, waiting)` is asked now and then whether to stop.
 pub fn subdivided(
     a: &Surface,
     b: &Surface,
     depth: u32,
     flat: Option<f64>,
-    budget: usize,
-) -> Vec<Polyline> {
+    budget: u64,
+    poll: &mut dyn FnMut(u64, u64) -> bool,
+) -> Discrete {
     let (mut p, mut q) = (Pieces::new(a), Pieces::new(b));
     let near = node_gap(&p, &q);
     let error = p.error + q.error;
@@ -154,9 +173,14 @@ pub fn subdivided(
         .into_iter()
         .flat_map(|i| roots(&q).into_iter().map(move |j| (i, j, 0, 0)))
         .collect();
-    let (mut segments, mut looked) = (Vec::new(), 0);
+    let (mut segments, mut found) = (Vec::new(), Discrete::default());
     while let Some((i, j, di, dj)) = waiting.pop() {
-        looked += 1;
+        if found.looked.is_multiple_of(GROUP) && poll(found.looked, waiting.len() as u64 + 1) {
+            found.stopped = true;
+            break;
+        }
+        found.looked += 1;
+        found.exhausted |= found.looked > budget || p.parts.len() + q.parts.len() > MOST_PARTS;
         let (x, y) = (&p.parts[i as usize], &q.parts[j as usize]);
         if misses(x, y, error) {
             continue;
@@ -166,7 +190,7 @@ pub fn subdivided(
             None => d >= depth,
         };
         let ends = [done(x, di), done(y, dj)];
-        if ends == [true; 2] || looked >= budget {
+        if ends == [true; 2] || found.exhausted {
             for s in flat_part(&p, x) {
                 segments.extend(flat_part(&q, y).iter().filter_map(|t| meet(&s, t)));
             }
@@ -176,7 +200,8 @@ pub fn subdivided(
             waiting.extend(q.halves(j).map(|j| (i, j, di, dj + 1)));
         }
     }
-    joined(segments, near)
+    found.lines = joined(segments, near);
+    found
 }
 
 fn flat_part(pieces: &Pieces, part: &Part) -> [Triangle; 2] {
@@ -189,8 +214,16 @@ fn flat_part(pieces: &Pieces, part: &Part) -> [Triangle; 2] {
     })
 }
 
-/// Tessellation of both surfaces by grids of `cells` x `cells` cells over their domains.
-pub fn meshed(a: &dyn Shape, b: &dyn Shape, cells: usize) -> Vec<Polyline> {
+/// Tessellation of both surfaces by grids of `cells` x `cells` cells over their domains. `poll(rows, rows left)` is asked whether to stop.
+///
+/// # Errors
+/// [`Error::OutOfMemory`].
+pub fn meshed(
+    a: &dyn Shape,
+    b: &dyn Shape,
+    cells: usize,
+    poll: &mut dyn FnMut(u64, u64) -> bool,
+) -> Result<Discrete, Error> {
     let grid = |surface: &dyn Shape| {
         let [u0, u1, v0, v1] = surface.domain();
         let at = |i: usize, j: usize| {
@@ -200,7 +233,8 @@ pub fn meshed(a: &dyn Shape, b: &dyn Shape, cells: usize) -> Vec<Polyline> {
             let at = [share(i, [u0, u1]), share(j, [v0, v1])];
             (at, surface.evaluate(at[0], at[1]))
         };
-        let mut all = Vec::with_capacity(cells * cells);
+        let mut all = Vec::new();
+        all.try_reserve_exact(cells * cells).map_err(|_| Error::OutOfMemory)?;
         for k in 0..cells * cells {
             let (i, j) = (k / cells, k % cells);
             let pair = triangles(|s, t| at(i + s as usize, j + t as usize));
@@ -208,14 +242,20 @@ pub fn meshed(a: &dyn Shape, b: &dyn Shape, cells: usize) -> Vec<Polyline> {
             pair.iter().flat_map(|t| t.x).for_each(|x| aabb.include(x));
             all.push((aabb, pair));
         }
-        all
+        Ok(all)
     };
-    let (p, q) = (grid(a), grid(b));
+    let (p, q) = (grid(a)?, grid(b)?);
+    let mut found = Discrete::default();
     let (mut segments, meets) = (Vec::new(), |x: &Aabb, y: &Aabb| {
         (0..3).all(|k| x.low[k] <= y.high[k] && y.low[k] <= x.high[k])
     });
     let mut size = Aabb::EMPTY;
     for row in q.chunks_exact(cells.max(1)) {
+        if poll(found.looked, cells as u64 - found.looked) {
+            found.stopped = true;
+            break;
+        }
+        found.looked += 1;
         let block = row.iter().fold(Aabb::EMPTY, |all, cell| all.union(cell.0));
         size = size.union(block);
         for x in p.iter().filter(|x| meets(&x.0, &block)) {
@@ -226,5 +266,6 @@ pub fn meshed(a: &dyn Shape, b: &dyn Shape, cells: usize) -> Vec<Polyline> {
             }
         }
     }
-    joined(segments, 1e-9 * size.diagonal())
+    found.lines = joined(segments, 1e-9 * size.diagonal());
+    Ok(found)
 }

@@ -16,6 +16,13 @@ pub struct Watch<'a> {
 }
 
 impl<'a> Watch<'a> {
+    /// Asks `poll(done, left)`; nobody if it is known that `stopped` was said.
+    pub fn after(stopped: bool, poll: &'a mut dyn FnMut(u64, u64) -> bool) -> Self {
+        let watch = Self::new(poll);
+        watch.stopped.set(stopped);
+        watch
+    }
+
     /// Asks `poll(done, left)`.
     pub fn new(poll: &'a mut dyn FnMut(u64, u64) -> bool) -> Self {
         Self {
@@ -45,13 +52,14 @@ impl<'a> Watch<'a> {
         self.stopped.get()
     }
 
+    /// Whether it was said to stop.
+    pub fn stopped(&self) -> bool {
+        self.stopped.get()
+    }
+
     /// Asks at the end of a phase.
-    ///
-    /// # Errors
-    /// [`Error::Cancelled`].
-    pub fn phase(&self) -> Result<(), Error> {
+    pub fn phase(&self) {
         self.asks(self.done.get(), 0);
-        self.checked()
     }
 
     /// What a phase made is of use only if nobody stopped it.

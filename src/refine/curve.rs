@@ -1,6 +1,6 @@
 //! Foot points on curves.
 
-use super::{LAST_STEP, Method, NO_STEP, Trace, arc_ratio};
+use super::{Landing, Method, NO_STEP, Trace, arc_ratio, is_last};
 use crate::bounds::{Vector, dot, scaled, sub};
 use crate::jet::{BezierSegment, Jet1};
 
@@ -34,10 +34,33 @@ pub fn foot_on_curve(
     start: f64,
     range: [f64; 2],
     method: Method,
-    mut trace: Option<Trace>,
+    trace: Option<Trace>,
 ) -> (f64, Jet1, u32) {
+    let Landing { at, jet, taken, .. } = iterate(curve, start, range, method, trace, true);
+    (at, jet, taken)
+}
+
+/// As [`foot_on_curve`], but the foot need not have been looked at: a jet less.
+pub fn land_on_curve(
+    curve: &impl CurveJets,
+    start: f64,
+    range: [f64; 2],
+    method: Method,
+) -> Landing<f64, Jet1> {
+    iterate(curve, start, range, method, None, false)
+}
+
+fn iterate(
+    curve: &impl CurveJets,
+    start: f64,
+    range: [f64; 2],
+    method: Method,
+    mut trace: Option<Trace>,
+    look: bool,
+) -> Landing<f64, Jet1> {
     let [low, high] = range;
     let width = high - low;
+    let mut before = None;
     let mut s = start.clamp(low, high);
     let mut jet = curve.jet(s);
     let mut taken = 1;
@@ -52,7 +75,12 @@ pub fn foot_on_curve(
         if (next - s).abs() <= NO_STEP * next.abs() {
             break;
         }
-        let last = second_order && (next - s).abs() <= LAST_STEP * width;
+        let size = (next - s).abs() / width;
+        let last = second_order && is_last(size, before);
+        if last && !look && low < next && next < high {
+            return Landing { at: next, seen: s, jet, taken };
+        }
+        let whole = next;
         let mut candidate = curve.jet(next);
         taken += 1;
         for _ in 0..12 {
@@ -69,13 +97,14 @@ pub fn foot_on_curve(
         if !last && candidate.squared() >= jet.squared() && candidate.gradient().abs() >= g.abs() {
             break;
         }
+        before = (second_order && next == whole).then_some(size);
         (s, jet) = (next, candidate);
         tell(&mut trace, curve, step, s, &jet);
         if last {
             break;
         }
     }
-    (s, jet, taken)
+    Landing { at: s, seen: s, jet, taken }
 }
 
 /// Whether two squared distances differ by rounding only; then the gradient decides which is better.

@@ -1,6 +1,6 @@
 //! Foot points on surfaces.
 
-use super::{LAST_STEP, Method, NO_STEP, Trace, arc_ratio};
+use super::{Landing, Method, NO_STEP, Trace, arc_ratio, is_last};
 use crate::bounds::{Vector, cross, dot};
 use crate::jet::{BezierPatch, Jet2};
 
@@ -64,6 +64,15 @@ impl State {
         [0, 1].map(|k| (self.at[k] + share * step[k]).clamp(self.low(k), self.high(k)))
     }
 
+    /// Whether a move reaches no other side of the box, and leaves none.
+    fn keeps_sides(&self, to: [f64; 2]) -> bool {
+        let inside = |k: usize| self.low(k) < to[k] && to[k] < self.high(k);
+        (0..2).all(|k| {
+            to[k] == self.at[k]
+                || inside(k) && self.low(k) < self.at[k] && self.at[k] < self.high(k)
+        })
+    }
+
     /// Greatest move, as a share of the box.
     fn size(&self, to: [f64; 2]) -> f64 {
         let share = |k: usize| {
@@ -81,8 +90,31 @@ pub fn foot_on_surface(
     start: [f64; 2],
     range: [f64; 4],
     method: Method,
-    mut trace: Option<Trace>,
+    trace: Option<Trace>,
 ) -> ([f64; 2], Jet2, u32) {
+    let Landing { at, jet, taken, .. } = iterate(surface, start, range, method, trace, true);
+    (at, jet, taken)
+}
+
+/// As [`foot_on_surface`], but the foot need not have been looked at: a jet less.
+pub fn land_on_surface(
+    surface: &impl SurfaceJets,
+    start: [f64; 2],
+    range: [f64; 4],
+    method: Method,
+) -> Landing<[f64; 2], Jet2> {
+    iterate(surface, start, range, method, None, false)
+}
+
+fn iterate(
+    surface: &impl SurfaceJets,
+    start: [f64; 2],
+    range: [f64; 4],
+    method: Method,
+    mut trace: Option<Trace>,
+    look: bool,
+) -> Landing<[f64; 2], Jet2> {
+    let mut before = None;
     let mut state = State { at: start, range };
     state.at = state.moved([0.0; 2], 0.0);
     let mut place = Place::new(surface.jet(state.at[0], state.at[1]));
@@ -91,11 +123,15 @@ pub fn foot_on_surface(
     for count in 1..=method.steps() {
         let held = state.held(place.g);
         let Some((step, second_order)) = bounded_step(&state, &place, method) else { break };
-        let size = state.size(state.moved(step, 1.0));
+        let whole = state.moved(step, 1.0);
+        let size = state.size(whole);
         if size <= NO_STEP {
             break;
         }
-        let last = second_order && size <= LAST_STEP;
+        let last = second_order && is_last(size, before);
+        if last && !look && state.keeps_sides(whole) {
+            return Landing { at: whole, seen: state.at, jet: place.jet, taken };
+        }
         let accept = |candidate: &Place| last || improved(candidate, &place, held);
         let patience = if method == Method::Auto { 0.2 } else { 1e-4 };
         let mut found = advance(surface, &state, step, patience, &accept, &mut taken);
@@ -118,6 +154,7 @@ pub fn foot_on_surface(
             }
         }
         let Some((next, candidate)) = found else { break };
+        before = (second_order && next == whole).then_some(size);
         (state.at, place) = (next, candidate);
         tell(&mut trace, surface, count, state.at, &place);
         // A step with other parameters held than those that are held now proves nothing about the next one.
@@ -125,7 +162,7 @@ pub fn foot_on_surface(
             break;
         }
     }
-    (state.at, place.jet, taken)
+    Landing { at: state.at, seen: state.at, jet: place.jet, taken }
 }
 
 /// A jet with the products that every step needs, formed once.

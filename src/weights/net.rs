@@ -107,8 +107,10 @@ impl<'a> Net<'a> {
     /// The shape with these weights.
     pub fn with(&self, weights: &[f64]) -> Result<Fitted, Error> {
         Ok(match self {
-            Self::Curve(_) => Fitted::Curve(IndexedCurve::new(self.curve_with(weights)?)),
-            Self::Surface(_) => Fitted::Surface(IndexedSurface::new(self.surface_with(weights)?)),
+            Self::Curve(_) => Fitted::Curve(IndexedCurve::for_few(self.curve_with(weights)?)),
+            Self::Surface(_) => {
+                Fitted::Surface(IndexedSurface::for_few(self.surface_with(weights)?))
+            }
         })
     }
 

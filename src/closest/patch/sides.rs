@@ -3,7 +3,7 @@
 use super::super::collapsed::{along, rational_slope_extent, slope_extent};
 use super::super::line::{Given, Line, Source, search_line};
 use super::super::proof::Site;
-use super::super::settle::settle;
+use super::super::settle::settled;
 use super::{Area, Walk};
 use crate::bezier::{cut_2d, isocurve};
 use crate::bounds::extent;
@@ -100,10 +100,12 @@ impl Walk<'_, '_, '_> {
         }
     }
 
-    /// See [`settle`].
+    /// See [`settled`].
     pub(super) fn settle(&mut self, site: Site, jet: &Jet2) {
-        let (reach, degree) = (self.sheet.reach, self.sheet.net.degree);
-        settle(reach, site, jet, self.sheet.position, degree, self.proof);
+        let (reach, position, degree) =
+            (self.sheet.reach, self.sheet.position, self.sheet.net.degree);
+        let gap = self.proof.gap;
+        self.proof.settle(site, || settled(reach, site, jet, position, degree, gap));
     }
 
     /// Index of product coefficient `i` along side `k`.
