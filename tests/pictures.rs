@@ -345,7 +345,8 @@ fn colours_of_a_torus_are_those_of_its_curvatures() {
         // The foot of the ring is inside of the tube by less than its silhouettes.
         ((ring - 3.0).abs() < 0.97).then(|| (ring - 3.0) / ring)
     };
-    let tests: [(Pattern, f64, fn([f64; 2]) -> f64); 4] = [
+    type Of = fn([f64; 2]) -> f64;
+    let tests: [(Pattern, f64, Of); 4] = [
         (Pattern::Greater, 1.0, |k| k[0].max(k[1])),
         (Pattern::Less, 1.0, |k| k[0].min(k[1])),
         (Pattern::Mean, 1.0, |k| 0.5 * (k[0] + k[1])),

@@ -299,9 +299,8 @@ pub fn surface_near(
                 new_knots(&surface, &at, &missed, options, limit)
             }
             None => {
-                let (surface, missed, more) =
+                let Round { surface, error, more } =
                     corrected(points, &mut at, &values, options, limit, poll)?;
-                let error = worst(&missed);
                 if kept.as_ref().is_none_or(|kept| error < kept.2) {
                     kept = Some((surface, copy_of(&at)?, error));
                 }
@@ -352,8 +351,16 @@ fn stepped(
     Ok((places, collect(found.len(), found.iter().map(|foot| foot.distance))?))
 }
 
-/// The surface of least squares for these knots, the parameters corrected on the way, the distances at them or a step beyond, and
-/// the knots that are missing.
+/// A surface of all points.
+struct Round {
+    surface: Surface,
+    /// Greatest distance at the parameters, or a step beyond.
+    error: f64,
+    /// Knots that are missing.
+    more: [Vec<f64>; 2],
+}
+
+/// The surface of least squares for these knots, the parameters corrected on the way.
 fn corrected(
     points: &[Vector],
     at: &mut Vec<[f64; 2]>,
@@ -361,7 +368,7 @@ fn corrected(
     options: &NearOptions,
     limit: usize,
     poll: Poll,
-) -> Result<(Surface, Vec<f64>, [Vec<f64>; 2]), Error> {
+) -> Result<Round, Error> {
     let (mut surface, mut missed) = surface_of(points, at, values, options.degrees)?;
     for correction in 1..=options.corrections {
         if worst(&missed) <= options.tolerance {
@@ -372,7 +379,7 @@ fn corrected(
             // Without room for knots corrections are what is left.
             let more = new_knots(&surface, at, &reached, options, limit);
             if more.iter().any(|more| !more.is_empty()) {
-                return Ok((surface, reached, more));
+                return Ok(Round { surface, error: worst(&reached), more });
             }
         }
         (*at, missed) = (places, reached);
@@ -387,7 +394,7 @@ fn corrected(
         (surface, missed) = (again, now);
     }
     let more = new_knots(&surface, at, &missed, options, limit);
-    Ok((surface, missed, more))
+    Ok(Round { surface, error: worst(&missed), more })
 }
 
 /// The surface of least squares at parameters, and the distances there.
