@@ -70,10 +70,11 @@ def main(path):
     cells = [(name, image(inspect.picture(shape, pattern, size=size, bands=24, **view)), *size) for name, (shape, pattern) in names.items()]
     cells.append(("principal directions and umbilics", *drawing(draw.directions(egg, size=300))))
     cells.append(("comb before", *drawing(inspect.comb_svg(wavy, scale=0.03, size=300))))
-    cells.append(("comb after: extrema of the comb, inflections", *drawing(inspect.comb_svg(smooth, scale=0.03, size=300))))
+    cells.append(("comb after", *drawing(inspect.comb_svg(smooth, scale=0.03, size=300))))
     low_part, high_part = footpoint.operate.split(rough, 0.5, "u")
     cells.append(("border of two halves, one faired alone", *drawing(draw.border(fair.surface(low_part, 2e-3, borders=(1, 1, 1, 1)).shape, 1, high_part, 0, size=size))))
-    cells.append(("Hausdorff distance before and after", *drawing(draw.distance(wavy, smooth, eye=(0, 0, 1), size=300))))
+    parabola = footpoint.Curve.from_poles(2, [[0, -0.1125], [0.5, 0.7125], [1, -0.1125]])
+    cells.append(("Hausdorff distance from a parabola", *drawing(draw.distance(smooth, parabola, eye=(0, 0, 1), size=300))))
     parts = []
     for k, (name, text, width, height) in enumerate(cells):
         x, y = 320 * (k % 5), 275 * (k // 5)

@@ -24,6 +24,7 @@ mod conditions;
 mod grid;
 mod near;
 mod parameters;
+mod sample;
 mod scattered;
 mod triangle;
 

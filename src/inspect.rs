@@ -40,6 +40,8 @@ mod bend;
 
 mod umbilic;
 
+mod paint;
+
 mod picture;
 
 mod hausdorff;
@@ -52,7 +54,8 @@ pub use bend::{
 };
 pub use continuity::{Continuity, Measured, continuity};
 pub use hausdorff::{Directed, Hausdorff, HausdorffOptions, Shape, hausdorff};
-pub use picture::{Pattern, Picture, PictureOptions, picture};
+pub use paint::Pattern;
+pub use picture::{Picture, PictureOptions, picture};
 pub use ranges::{curve_range, surface_range};
 pub use request::{Quantity, Range, RangeOptions, Side, Unbounded};
 pub use umbilic::{Curvatures, Umbilic, curvatures, umbilics};

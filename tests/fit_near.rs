@@ -82,6 +82,38 @@ fn scattered_points_of_a_surface_are_met_with_proof() {
     }
 }
 
+/// A place of the plane, bent: what parameters are that were guessed.
+fn bent([x, y]: [f64; 2]) -> [f64; 2] {
+    [x + 0.15 * (1.7 * x + y).sin(), y + 0.12 * (2.0 * y - x).cos()]
+}
+
+#[test]
+fn many_points_at_uneven_parameters_are_met_whatever_the_threads() {
+    let mut random = Random(11);
+    let places: Vec<[f64; 2]> =
+        (0..20_000).map(|_| [4.0 * random.next() - 2.0, 3.0 * random.next()]).collect();
+    let points: Vec<[f64; 3]> = places.iter().map(|p| hill(p[0], p[1])).collect();
+    let guessed: Vec<[f64; 2]> = places.iter().map(|p| bent(*p)).collect();
+    let fit = |start: &[[f64; 2]], threads: usize| {
+        let options = NearOptions { tolerance: 1e-3, threads, ..NearOptions::default() };
+        surface_near(&points, start, &options, &mut || false).unwrap()
+    };
+    let (even, uneven) = (fit(&places, 1), fit(&guessed, 1));
+    for near in [&even, &uneven] {
+        let all = near.certificate;
+        assert!(all.worst <= 1e-3 && all.unproven == 0, "{all:?}");
+        let away = |i: usize| {
+            let [u, v] = near.parameters[i];
+            distance(near.shape.evaluate(u, v), points[i])
+        };
+        assert!((0..points.len()).all(|i| away(i) <= all.worst + 1e-12));
+        assert!((away(all.worst_index) - all.worst).abs() < 1e-12);
+    }
+    let [few, more] = [&even, &uneven].map(|near| near.shape.poles().len());
+    assert!(few < 150 && more < 4 * few, "{few} {more}");
+    assert_eq!(fit(&guessed, 3), uneven);
+}
+
 #[test]
 fn noise_is_not_followed_and_said_to_be_there() {
     let mut random = Random(3);

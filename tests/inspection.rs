@@ -1,4 +1,4 @@
-//! Hausdorff distances, continuity along borders, umbilics, pictures: closed forms.
+//! Hausdorff distances, continuity along borders, umbilics: closed forms.
 
 mod revolved;
 mod shapes;
@@ -6,8 +6,7 @@ mod shapes;
 use footpoint::curve::Curve;
 use footpoint::index::{IndexedCurve, IndexedSurface};
 use footpoint::inspect::{
-    HausdorffOptions, Pattern, PictureOptions, RangeOptions, Shape, continuity, curvatures,
-    hausdorff, picture, umbilics,
+    HausdorffOptions, RangeOptions, Shape, continuity, curvatures, hausdorff, umbilics,
 };
 use footpoint::knots::Side;
 use footpoint::surface::Surface;
@@ -42,6 +41,30 @@ fn the_distance_of_an_ellipse_from_a_circle_is_that_of_its_far_end() {
     assert!(found.forward.proven && found.backward.proven, "{found:?}");
     assert_bounds([found.forward.lower, found.forward.upper], 0.3, 1.1e-4);
     assert_bounds(found.bounds(), 0.3, 1.1e-4);
+}
+
+#[test]
+fn the_lower_bound_of_a_distance_is_attained_at_its_place() {
+    let (circle, ellipse) = (ellipse(1.0, 1.0), ellipse(1.3, 0.9));
+    let ball = IndexedSurface::new(ellipsoid([1.0; 3]));
+    let egg = IndexedSurface::new(ellipsoid([1.2, 1.0, 1.0]));
+    let options = HausdorffOptions { accuracy: 1e-2, ..HausdorffOptions::default() };
+    let pairs = [
+        (Shape::Curve(&ellipse), Shape::Curve(&circle), 0.3),
+        (Shape::Curve(&ellipse), Shape::Surface(&ball), 0.3),
+        (Shape::Surface(&egg), Shape::Surface(&ball), 0.2),
+    ];
+    for (a, b, far) in pairs {
+        let found = hausdorff(a, b, &options, &mut || false).unwrap().forward;
+        let point = match a {
+            Shape::Curve(curve) => curve.curve().evaluate(found.at[0]),
+            Shape::Surface(surface) => surface.surface().evaluate(found.at[0], found.at[1]),
+        };
+        // The second shape is the unit circle or ball, and the first is farthest from it where its parameter begins.
+        let distance = (norm(point) - 1.0).abs();
+        assert!(found.lower <= distance + 1e-12 && distance <= found.upper, "{found:?} {point:?}");
+        assert!(distance > far - 1e-2, "{found:?} {distance}");
+    }
 }
 
 #[test]
@@ -206,172 +229,4 @@ fn principal_directions_of_a_torus_run_along_its_circles() {
         assert!((cosine - if is_around { 1.0 } else { 0.0 }).abs() < 1e-9, "{c:?}");
     }
     assert!((c.gaussian - around * flip).abs() < 1e-12 && !c.is_umbilic);
-}
-
-#[test]
-fn pictures_show_the_surface_and_refuse_nonsense() {
-    let surface = ellipsoid([3.0, 2.0, 1.0]);
-    let patterns = [
-        Pattern::Shaded,
-        Pattern::Zebra,
-        Pattern::Isophotes,
-        Pattern::ReflectionLines,
-        Pattern::HighlightLines,
-        Pattern::Greater,
-        Pattern::Less,
-        Pattern::Mean,
-        Pattern::Gaussian,
-    ];
-    for pattern in patterns {
-        let options = PictureOptions { pattern, size: [120, 90], ..PictureOptions::default() };
-        let made = picture(&surface, &options).unwrap();
-        assert_eq!(made.pixels.len(), 3 * 120 * 90);
-        let at = |x: usize, y: usize| &made.pixels[3 * (y * 120 + x)..][..3];
-        assert_eq!(at(0, 0), [255; 3], "{pattern:?}");
-        let inside = made.pixels.chunks(3).filter(|p| p != &[255; 3]).count();
-        assert!(inside > 120 * 90 / 4, "{pattern:?} {inside}");
-        if let Some(folder) = std::env::var_os("FOOTPOINT_PICTURES") {
-            let options = PictureOptions { pattern, ..PictureOptions::default() };
-            let made = picture(&surface, &options).unwrap();
-            let mut file = b"P6 640 480 255\n".to_vec();
-            file.extend(&made.pixels);
-            std::fs::write(std::path::Path::new(&folder).join(format!("{pattern:?}.ppm")), file)
-                .unwrap();
-        }
-    }
-    let refused = |change: &dyn Fn(&mut PictureOptions)| {
-        let mut options = PictureOptions::default();
-        change(&mut options);
-        picture(&surface, &options).err().unwrap().to_string()
-    };
-    assert!(refused(&|o| o.size = [0, 10]).starts_with("size:"));
-    assert!(refused(&|o| o.eye = [0.0; 3]).starts_with("eye:"));
-    assert!(refused(&|o| o.up = o.eye).starts_with("up:"));
-    assert!(refused(&|o| o.light[1] = f64::NAN).starts_with("light:"));
-    assert!(refused(&|o| o.bands = 0).starts_with("bands:"));
-    assert!(refused(&|o| o.range = [1.0, f64::INFINITY]).starts_with("range:"));
-}
-
-/// Brightness of a picture's pixel, 0 to 1.
-fn brightness(pixels: &[u8], width: usize, x: usize, y: usize) -> f64 {
-    pixels[3 * (y * width + x)..][..3].iter().map(|c| f64::from(*c)).sum::<f64>() / 765.0
-}
-
-/// How often a row of brightness goes from light to dark: dark stripes that begin.
-fn stripes(row: &[f64]) -> usize {
-    let (mut count, mut is_dark) = (0, false);
-    for &x in row {
-        let now = if is_dark { x < 0.55 } else { x < 0.3 };
-        count += usize::from(now && !is_dark);
-        is_dark = now;
-    }
-    count
-}
-
-/// A picture seen and lit along z, with y up.
-fn from_above(surface: &Surface, pattern: Pattern, bands: usize, range: [f64; 2]) -> Vec<u8> {
-    let options = PictureOptions {
-        pattern,
-        size: [400, 400],
-        eye: [0.0, 0.0, 1.0],
-        up: [0.0, 1.0, 0.0],
-        light: [0.0, 0.0, 1.0],
-        bands,
-        range,
-    };
-    picture(surface, &options).unwrap().pixels
-}
-
-#[test]
-fn isophotes_of_a_sphere_are_circles_one_for_each_band() {
-    let pixels = from_above(&ellipsoid([1.0; 3]), Pattern::Isophotes, 8, [0.0; 2]);
-    // From the middle outward the angle between normal and light goes from 0 to a right angle; the last band is a pixel wide.
-    for (dx, dy) in [(1i64, 0i64), (-1, 0), (0, 1), (0, -1)] {
-        let at =
-            |k: i64| brightness(&pixels, 400, (200 + dx * k) as usize, (200 + dy * k) as usize);
-        let row: Vec<f64> = (0..187).map(at).collect();
-        let count = stripes(&row);
-        assert!((7..=8).contains(&count), "{dx} {dy} {count}");
-        // The middle is the begin of the first band, which is dark; it ends at half of an eighth of a right angle.
-        let radius = 188.0 * (0.5 * std::f64::consts::FRAC_PI_2 / 8.0).sin();
-        let edge = row.iter().position(|x| *x > 0.5).unwrap() as f64;
-        assert!((edge - radius).abs() <= 2.5, "{edge} {radius}");
-    }
-}
-
-#[test]
-fn zebra_stripes_of_a_ball_cross_its_middle_twice_and_a_plane_has_none() {
-    let pixels = from_above(&ellipsoid([1.0; 3]), Pattern::Zebra, 10, [0.0; 2]);
-    // Up the middle line the reflection goes down to the floor, up to the ceiling and back: twice ten bands.
-    let column: Vec<f64> = (13..387).map(|y| brightness(&pixels, 400, 200, y)).collect();
-    let count = stripes(&column);
-    assert!((16..=21).contains(&count), "{count}");
-    let flat = plane([[0., 0., 0.], [0., 1., 0.], [1., 0., 0.], [1., 1., 0.]]);
-    let pixels = from_above(flat.surface(), Pattern::Zebra, 10, [0.0; 2]);
-    let row: Vec<f64> = (20..380).map(|x| brightness(&pixels, 400, x, 200)).collect();
-    assert!(row.iter().all(|x| (x - row[0]).abs() < 0.01), "{row:?}");
-}
-
-#[test]
-fn lamps_over_a_plane_are_straight_lines_at_equal_distances() {
-    let flat = plane([[0., 0., 0.], [0., 1., 0.], [1., 0., 0.], [1., 1., 0.]]);
-    for pattern in [Pattern::ReflectionLines, Pattern::HighlightLines] {
-        let pixels = from_above(flat.surface(), pattern, 12, [0.0; 2]);
-        let line =
-            |y: usize| (14..386).map(|x| brightness(&pixels, 400, x, y)).collect::<Vec<f64>>();
-        let row = line(200);
-        let count = stripes(&row);
-        // The plane is 0.94 of the picture wide: 11.3 lamps.
-        assert!((11..=12).contains(&count), "{pattern:?} {count}");
-        for y in [30, 120, 350] {
-            let off = line(y).iter().zip(&row).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            assert!(off < 0.01, "{pattern:?} {y} {off}");
-        }
-    }
-    // Seen in a tube along y:
-    let (knots, poles) = circle([0.0; 3], 1.0);
-    let poles: Vec<(Vector, f64)> = poles.into_iter().collect();
-    let tube: Vec<Vector> =
-        poles.iter().flat_map(|(p, _)| [[p[0], 0.0, p[2]], [p[0], 2.0, p[2]]]).collect();
-    let weights: Vec<f64> = poles.iter().flat_map(|(_, w)| [*w, *w]).collect();
-    let count = poles.len();
-    let tube = Surface::new(&knots, &LINE, 2, 1, &tube, count, 2, Some(&weights)).unwrap();
-    let pixels = from_above(&tube, Pattern::ReflectionLines, 12, [0.0; 2]);
-    let row: Vec<f64> = (14..386).map(|x| brightness(&pixels, 400, x, 200)).collect();
-    // The middle is at 186, the radius 188: beyond half a right angle the reflection goes down, where no lamps are.
-    let (left, middle, right) =
-        (stripes(&row[4..48]), stripes(&row[60..312]), stripes(&row[324..368]));
-    assert!(left == 0 && middle >= 6 && right == 0, "{left} {middle} {right}");
-}
-
-#[test]
-fn colours_tell_the_sign_of_the_curvature_of_a_torus_and_its_value_on_a_sphere() {
-    let (knots, profile) = circle([3.0, 0.0, 0.0], 1.0);
-    let torus = revolved(&knots, 2, &profile);
-    let pixels = from_above(&torus, Pattern::Gaussian, 16, [-0.5, 0.5]);
-    let colour = |pixels: &[u8], x: usize, y: usize| {
-        let at = 3 * (y * 400 + x);
-        [0, 1, 2].map(|c| i32::from(pixels[at + c]))
-    };
-    // 0.94 of 400 pixels are 8 lengths: 47 pixels a length.
-    for (dx, dy) in [(1i32, 0i32), (-1, 0), (0, 1), (0, -1)] {
-        let at = |length: f64| {
-            let go = |d: i32| (200.0 + f64::from(d) * 47.0 * length) as usize;
-            colour(&pixels, go(dx), go(dy))
-        };
-        let [red, _, blue] = at(3.8);
-        assert!(red > blue + 40, "outside {red} {blue}");
-        let [red, _, blue] = at(2.2);
-        assert!(blue > red + 40, "inside {red} {blue}");
-        let [red, green, blue] = at(3.0);
-        assert!((red - green).abs() < 25 && (red - blue).abs() < 25, "top {red} {green} {blue}");
-        assert_eq!(at(0.0), [255; 3]);
-    }
-    // Half of the range is white, its ends are red and blue.
-    let ball = ellipsoid([2.0; 3]);
-    let size = |range| colour(&from_above(&ball, Pattern::Gaussian, 16, range), 200, 200);
-    let [red, _, blue] = size([0.0, 0.5]);
-    assert!((red - blue).abs() < 12, "{red} {blue}");
-    let ([red, _, blue], [cold, _, warm]) = (size([0.0, 0.25]), size([0.25, 0.5]));
-    assert!(red > blue + 100 && warm > cold + 100, "{red} {blue} {cold} {warm}");
 }

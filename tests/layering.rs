@@ -106,6 +106,30 @@ fn a_file_uses_only_modules_listed_before_its_own() {
 }
 
 #[test]
+fn the_picture_of_the_modules_shows_each_of_them_in_order() {
+    let root = without_tests(&source().join("lib.rs"));
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let read = |path: &str| std::fs::read_to_string(folder.join(path)).expect("a document");
+    let picture = read("docs/pictures/architecture.svg");
+    let shown: Vec<&str> = picture
+        .split(r#"class="m">"#)
+        .skip(1)
+        .map(|rest| rest.split('<').next().unwrap_or_default())
+        .collect();
+    assert_eq!(shown, declared(&root), "docs/pictures/architecture.py draws it");
+    let text = read("ARCHITECTURE.md");
+    let chart = text.split("```text").nth(1).and_then(|rest| rest.split("```").next());
+    let words: Vec<&str> = chart
+        .unwrap_or_default()
+        .lines()
+        .flat_map(|line| line.get(..44).unwrap_or(line).split(['-', ',', ' ']))
+        .collect();
+    for module in shown {
+        assert!(words.contains(&module), "{module} is not in the chart of ARCHITECTURE.md");
+    }
+}
+
+#[test]
 fn submodules_of_a_module_use_each_other_without_a_circle() {
     let files = files();
     let mut uses: BTreeMap<(&str, &str), BTreeSet<&str>> = BTreeMap::new();

@@ -104,7 +104,7 @@ def directions(surface: Surface, *, count: int = 16, eye: ArrayLike = (0.6, -1.0
 
 
 def distance(first: Curve | Surface, second: Curve | Surface, *, eye: ArrayLike = (0.6, -1.0, 0.9), size: int = 480) -> str:
-    """Two shapes and their greatest distances from each other: from the first (red) and from the second (blue) to the nearest point."""
+    """Two shapes and their greatest distances from each other: from the first (red) and from the second (blue) to the nearest point, with proven bounds."""
     pair = inspect.hausdorff(first, second)
     view = _View(np.concatenate(_lines(first, 8) + _lines(second, 8)), eye, size)
     view.net(first, _GREY, 8)
@@ -114,6 +114,10 @@ def distance(first: Curve | Surface, second: Curve | Surface, *, eye: ArrayLike 
         near = other.closest(start)
         view.line([start, near["point"]], colour, 2.5)
         view.dot(start, colour)
+    for k, (found, colour) in enumerate(((pair[0], _RED), (pair[1], _BLUE))):
+        view.parts.append(f'<text x="8" y="{view.height + 14 + 16 * k}" font-family="sans-serif" font-size="12" fill="{colour}">'
+                          f'at least {found.lower:.4g}, at most {found.upper:.4g}</text>')
+    view.height += 40
     return view.svg()
 
 

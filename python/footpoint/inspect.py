@@ -315,7 +315,8 @@ def picture(surface: Surface, pattern: int = Pattern.ZEBRA, *, size: tuple[int, 
 
 
 def comb_svg(curve: Curve, *, scale: float = 0.0, size: int = 800) -> str:
-    """The curve in the plane of x and y with its comb, and its inflections as dots, as the text of an SVG file.
+    """The curve in the plane of x and y with its comb, as the text of an SVG file: inflections are dots on the curve, extrema of the curvature squares at the
+    tips of their teeth.
 
     scale  length of a tooth for curvature 1; 0: the longest tooth is a fifth of the picture
     size   width in pixels
@@ -340,10 +341,23 @@ def comb_svg(curve: Curve, *, scale: float = 0.0, size: int = 800) -> str:
     fine = curve.evaluate(np.linspace(*curve.domain, 800))
     dots = [found for found in inflections(curve, (0, 0, 1)) if found["kind"] == Kind.INFLECTION]
     circles = "".join('<circle cx="{}" cy="{}" r="4" fill="#c0392b"/>'.format(*place(curve.evaluate(dot["value"][0]))[0].split(",")) for dot in dots)
+    squares = "".join('<rect class="extremum" x="{:.2f}" y="{:.2f}" width="6" height="6" fill="white" stroke="#2468b0"/>'.format(*(float(part) - 3 for part in at.split(",")))
+                      for at in place(_extreme_tips(curve, scale)))
     return (f'<svg xmlns="http://www.w3.org/2000/svg" width="{size}" height="{height}" viewBox="0 0 {size} {height}">'
             f'<rect width="100%" height="100%" fill="white"/><path d="{spines}" stroke="#7aa6d8" stroke-width="0.7" fill="none"/>'
             f'<polyline points="{" ".join(place(tips))}" stroke="#2468b0" fill="none"/>'
-            f'<polyline points="{" ".join(place(fine))}" stroke="black" stroke-width="1.6" fill="none"/>{circles}</svg>\n')
+            f'<polyline points="{" ".join(place(fine))}" stroke="black" stroke-width="1.6" fill="none"/>{circles}{squares}</svg>\n')
+
+
+def _extreme_tips(curve: Curve, scale: float) -> np.ndarray:
+    """The tips of the teeth where the curvature is greatest or least, and not 0: it rises on one side and falls on the other."""
+    pieces = monotone_pieces(curve)
+    pieces = pieces[pieces["kind"] != Kind.CONSTANT]
+    is_turn = np.isin(pieces["kind"], (Kind.RISING, Kind.FALLING))
+    turns = is_turn[:-1] & is_turn[1:] & (pieces["kind"][:-1] != pieces["kind"][1:])
+    turns &= pieces["value"][1:, 0] > 1e-6 * pieces["value"].max(initial=0.0)
+    teeth = comb(curve, pieces["u"][1:, 0][turns])
+    return teeth["point"] - scale * teeth["bend"]
 
 
 def _is(kind: type, shape: Any) -> Any:

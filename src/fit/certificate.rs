@@ -112,13 +112,14 @@ pub(super) fn size(poles: &[Vector]) -> f64 {
     bounds.diagonal()
 }
 
-/// At most `steps` steps of Gauss and Newton from `at` towards the foot of a point: as far as they lead nearer.
-pub(super) fn approached(
+/// At most `steps` steps of Gauss and Newton from `at` towards the foot of a point, as far as they lead nearer: parameters, and the
+/// distance of the point that they are rounded to.
+pub(super) fn nearer(
     surface: &Surface,
     point: Vector,
     at: [f64; 2],
     steps: usize,
-) -> FootPoint {
+) -> ([f64; 2], f64) {
     let ends = [surface.knots_u().domain(), surface.knots_v().domain()];
     let (mut best, mut next, mut distance) = (at, at, f64::INFINITY);
     for step in 0..=steps {
@@ -139,7 +140,7 @@ pub(super) fn approached(
         }
         next = [0, 1].map(|k| (best[k] + moved[k]).clamp(ends[k].0, ends[k].1));
     }
-    placed(surface, point, best)
+    (best, distance)
 }
 
 /// The distance from the point at parameters, as every distance of a foot: without the rounding of that point to its coordinates.
@@ -188,10 +189,11 @@ pub fn certify(
         let level = probed.iter().fold(0.0, |level: f64, foot| level.max(foot.lower_bound));
         order.retain(|&i| found[i].distance > level);
         let one = |k: usize, _: &mut Workspace| {
-            approached(shape, points[order[k]], hints[order[k]], STEPS)
+            let (point, hint) = (points[order[k]], hints[order[k]]);
+            placed(shape, point, nearer(shape, point, hint, STEPS).0)
         };
-        let nearer = feet(order.len(), threads, &one, poll)?;
-        order.iter().zip(nearer).for_each(|(&i, foot)| found[i] = foot);
+        let approached = feet(order.len(), threads, &one, poll)?;
+        order.iter().zip(approached).for_each(|(&i, foot)| found[i] = foot);
     }
     let ask = |i: usize, foot: &FootPoint, workspace: &mut Workspace| {
         from_hint(i, Some([foot.u, foot.v]), workspace)

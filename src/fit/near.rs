@@ -8,21 +8,25 @@
 //! At its foot a point's distance is that from the shape, not from a place that the parametrisation chose: fewer poles do. On surfaces a
 //! step of Gauss and Newton towards the foot is enough of a correction, since the next fit moves the feet anyway.
 //!
+//! While knots are missing, surfaces are fitted to some of the points, drawn evenly, as many as their poles need, at the parameters that were
+//! given; all points come in for the last rounds, and parameters are corrected once the surface is near.
+//!
 //! What is proven ([`super::certificate`]): `worst` is not exceeded by any data point, and some data point is at least `at_least` away.
 //! Nothing is said between the data points.
 //!
 //! Reference: Hoschek, *Intrinsic parametrization for approximation*, Computer Aided Geometric Design 5, 1988.
 
 use super::adaptive::cuts;
-use super::certificate::{Certificate, Poll, approached, certify, farthest, feet, size};
+use super::certificate::{Certificate, Poll, certify, farthest, feet, nearer, size};
 use super::parameters::{check_parameters, check_points};
+use super::sample::{drawn, ordered};
 use super::scattered::Design;
 use super::{Adaptive, Ends, fitted};
 use crate::analytic::linear::{add_square, any_frame, least_direction};
 use crate::bounds::{Vector, dot, norm, sub};
 use crate::closest::{FootPoint, QueryOptions, Scope, Workspace};
 use crate::curve::Curve;
-use crate::curve::insertion::spare;
+use crate::curve::insertion::{collect, copy_of, spare};
 use crate::error::Error;
 use crate::index::{IndexedCurve, IndexedSurface};
 use crate::knots::{Knots, MAX_DEGREE};
@@ -38,7 +42,8 @@ pub struct NearOptions {
     pub tolerance: f64,
     /// No more poles than that; 10,000 by default.
     pub max_poles: usize,
-    /// Corrections of all parameters for each set of knots; 3 by default, 0 for none.
+    /// Corrections of all parameters for each set of knots, of surfaces once no point is farther away than ten tolerances; 3 by
+    /// default, 0 for none.
     pub corrections: usize,
     /// Threads; 0 means all cores.
     pub threads: usize,
@@ -265,7 +270,10 @@ pub fn surface_near(
     if let Some(i) = parameters.iter().position(|at| at.iter().any(|x| !x.is_finite())) {
         return refuse(format!("parameters: parameter {i} is not finite"));
     }
-    let mut at = parameters.to_vec();
+    let order = ordered(parameters)?;
+    let given = points;
+    let points = &collect(order.len(), order.iter().map(|&i| given[i]))?[..];
+    let mut at = collect(order.len(), order.iter().map(|&i| parameters[i]))?;
     let mut values = [0, 1].map(|k| {
         let low = at.iter().fold(f64::INFINITY, |m, x| m.min(x[k]));
         let high = at.iter().fold(f64::NEG_INFINITY, |m, x| m.max(x[k]));
@@ -274,49 +282,119 @@ pub fn surface_near(
     });
     let limit = options.max_poles.min(points.len());
     let mut kept: Option<(Surface, Vec<[f64; 2]>, f64)> = None;
+    let mut takes_all = false;
     loop {
-        let (mut surface, mut missed) = surface_of(points, &at, &values, options.degrees)?;
-        for correction in 1..=options.corrections {
-            if worst(&missed) <= options.tolerance {
-                break;
+        let poles: usize = (0..2).map(|k| values[k].len() - options.degrees[k] - 1).product();
+        let some = if takes_all { None } else { drawn(points.len(), PER_POLE * poles) };
+        takes_all = some.is_none();
+        let more = match some {
+            Some(some) => {
+                let list = collect(0, some)?;
+                let points = collect(list.len(), list.iter().map(|&i| points[i]))?;
+                let at = collect(list.len(), list.iter().map(|&i| at[i]))?;
+                let (surface, mut missed) = surface_of(&points, &at, &values, options.degrees)?;
+                if options.corrections > 0 {
+                    (_, missed) = stepped(&surface, &points, &at, options.threads, poll)?;
+                }
+                new_knots(&surface, &at, &missed, options, limit)
             }
-            let ask = |i: usize, _: &mut Workspace| approached(&surface, points[i], at[i], 1);
-            let found = feet(points.len(), options.threads, &ask, poll)?;
-            for (i, foot) in found.iter().enumerate() {
-                (at[i], missed[i]) = ([foot.u, foot.v], foot.distance);
+            None => {
+                let Round { surface, error, more } =
+                    corrected(points, &mut at, &values, options, limit, poll)?;
+                if kept.as_ref().is_none_or(|kept| error < kept.2) {
+                    kept = Some((surface, copy_of(&at)?, error));
+                }
+                more
             }
-            let reached = worst(&missed);
-            if correction == options.corrections || reached <= options.tolerance {
-                break;
-            }
-            let (again, now) = surface_of(points, &at, &values, options.degrees)?;
-            if worst(&now) >= reached {
-                break;
-            }
-            (surface, missed) = (again, now);
-        }
-        let error = worst(&missed);
-        let done = error <= options.tolerance;
-        let more = if done {
-            [Vec::new(), Vec::new()]
-        } else {
-            new_knots(&surface, &at, &missed, options, limit)
         };
-        if kept.as_ref().is_none_or(|kept| error < kept.2) {
-            kept = Some((surface, at.clone(), error));
-        }
         if more.iter().all(Vec::is_empty) {
-            break;
+            if takes_all {
+                break;
+            }
+            takes_all = true;
         }
         for (values, more) in values.iter_mut().zip(more) {
             values.extend(more);
             values.sort_by(f64::total_cmp);
         }
     }
-    let Some((surface, at, _)) = kept else { return refuse("points: no surface".into()) };
+    let Some((surface, mut at, _)) = kept else { return refuse("points: no surface".into()) };
     let shape = IndexedSurface::new(surface);
-    let (parameters, certificate) = certify(&shape, points, Some(&at), options.threads, poll)?;
-    Ok(Near { shape: shape.surface().clone(), parameters, certificate })
+    let (found, certificate) = certify(&shape, points, Some(&at), options.threads, poll)?;
+    order.iter().zip(&found).for_each(|(&i, found)| at[i] = *found);
+    let certificate = Certificate { worst_index: order[certificate.worst_index], ..certificate };
+    Ok(Near { shape: shape.surface().clone(), parameters: at, certificate })
+}
+
+/// Points for each pole, at least, that tell, while knots are still missing, where: up to twice as many are drawn. Few enough to be quick,
+/// enough for a cell to be seen: the worst of two dozen points of a cell is seldom far below the worst of all.
+const PER_POLE: usize = 16;
+
+/// Parameters are corrected when no point is farther away than this many tolerances. Feet on a surface that is still coarse are no better
+/// than the parameters that were there, and bend the parametrisation: that takes more poles, not fewer.
+const NEAR: f64 = 10.0;
+
+/// All parameters a step of Gauss and Newton nearer to their feet, and the distances there.
+fn stepped(
+    surface: &Surface,
+    points: &[Vector],
+    at: &[[f64; 2]],
+    threads: usize,
+    poll: Poll,
+) -> Result<(Vec<[f64; 2]>, Vec<f64>), Error> {
+    let ask = |i: usize, _: &mut Workspace| {
+        let ([u, v], distance) = nearer(surface, points[i], at[i], 1);
+        FootPoint { u, v, distance, ..FootPoint::unreached() }
+    };
+    let found = feet(points.len(), threads, &ask, poll)?;
+    let places = collect(found.len(), found.iter().map(|foot| [foot.u, foot.v]))?;
+    Ok((places, collect(found.len(), found.iter().map(|foot| foot.distance))?))
+}
+
+/// A surface of all points.
+struct Round {
+    surface: Surface,
+    /// Greatest distance at the parameters, or a step beyond.
+    error: f64,
+    /// Knots that are missing.
+    more: [Vec<f64>; 2],
+}
+
+/// The surface of least squares for these knots, the parameters corrected on the way.
+fn corrected(
+    points: &[Vector],
+    at: &mut Vec<[f64; 2]>,
+    values: &[Vec<f64>; 2],
+    options: &NearOptions,
+    limit: usize,
+    poll: Poll,
+) -> Result<Round, Error> {
+    let (mut surface, mut missed) = surface_of(points, at, values, options.degrees)?;
+    for correction in 1..=options.corrections {
+        if worst(&missed) <= options.tolerance {
+            break;
+        }
+        let (places, reached) = stepped(&surface, points, at, options.threads, poll)?;
+        if correction == 1 && worst(&reached) > NEAR * options.tolerance {
+            // Without room for knots corrections are what is left.
+            let more = new_knots(&surface, at, &reached, options, limit);
+            if more.iter().any(|more| !more.is_empty()) {
+                return Ok(Round { surface, error: worst(&reached), more });
+            }
+        }
+        (*at, missed) = (places, reached);
+        let reached = worst(&missed);
+        if correction == options.corrections || reached <= options.tolerance {
+            break;
+        }
+        let (again, now) = surface_of(points, at, values, options.degrees)?;
+        if worst(&now) >= reached {
+            break;
+        }
+        (surface, missed) = (again, now);
+    }
+    let more = new_knots(&surface, at, &missed, options, limit);
+    Ok(Round { surface, error: worst(&missed), more })
 }
 
 /// The surface of least squares at parameters, and the distances there.
@@ -332,15 +410,13 @@ fn surface_of(
     };
     let design = Design::new([knots(0)?, knots(1)?], at)?;
     let center = points[0];
-    let poles = design.solve(points, center)?;
+    let (poles, missed) = design.solve(points, center)?;
     let list: Vec<Vector> =
         poles.iter().map(|p| std::array::from_fn(|x| p[x] + center[x])).collect();
     let counts = [0, 1].map(|k| values[k].len() - degrees[k] - 1);
     let surface = Surface::new(
         &values[0], &values[1], degrees[0], degrees[1], &list, counts[0], counts[1], None,
     )?;
-    let missed = points.iter().zip(at).map(|(p, t)| norm(surface.vector_from(*p, t[0], t[1])));
-    let missed = missed.collect();
     Ok((surface, missed))
 }
 

@@ -12,16 +12,18 @@
 
 use super::triangle::zeros;
 use crate::basis;
-use crate::bounds::{Vector, sub};
+use crate::bounds::{Vector, norm, sub};
 use crate::curve::insertion::{collect, filled};
 use crate::error::Error;
-use crate::knots::{Knots, MAX_DEGREE};
+use crate::knots::Knots;
 
 /// Weight of the second differences beside the mean diagonal entry.
 const RIDGE: f64 = 1e-8;
 /// Corrections of the solution, at most, and the change of the poles, relative to their size, at which they end.
 const CORRECTIONS: usize = 4;
 const SETTLED: f64 = 1e-11;
+/// Sums that are formed side by side.
+const LANES: usize = 4;
 
 /// The basis functions of the points.
 pub(super) struct Design {
@@ -109,26 +111,7 @@ impl Design {
         let count = counts[0] * counts[1];
         let band = (reach[0] + reach[1]).min(count - 1);
         let mut matrix = Band { band, rows: zeros(count, band + 1)? };
-        let mut entries = [(0, 0.0); (MAX_DEGREE + 1) * (MAX_DEGREE + 1)];
-        for (first, row_u, row_v) in self.rows() {
-            // In rising order of the unknowns.
-            let (slow, fast, [ss, sf]) =
-                if su >= sv { (row_u, row_v, [su, sv]) } else { (row_v, row_u, [sv, su]) };
-            let mut used = 0;
-            for (i, a) in slow.iter().enumerate() {
-                for (j, b) in fast.iter().enumerate() {
-                    entries[used] = (first + i * ss + j * sf, a * b);
-                    used += 1;
-                }
-            }
-            for k in 0..used {
-                let (row, a) = entries[k];
-                let start = row * (band + 1) + band - row;
-                for &(column, b) in &entries[..=k] {
-                    matrix.rows[start + column] += a * b;
-                }
-            }
-        }
+        self.add_products(&mut matrix)?;
         let trace: f64 = (0..count).map(|i| matrix.rows[i * (band + 1) + band]).sum();
         let weight = RIDGE * trace / count as f64;
         for i in 0..counts[0] {
@@ -143,8 +126,46 @@ impl Design {
         Ok(matrix)
     }
 
-    /// The poles (v runs fastest) nearest to `points`, relative to `center`.
-    pub fn solve(&self, points: &[Vector], center: Vector) -> Result<Vec<Vector>, Error> {
+    /// `A^T A`: the products of the functions of points on one cell are summed up before they go to their places.
+    fn add_products(&self, matrix: &mut Band) -> Result<(), Error> {
+        let [su, sv] = self.strides;
+        let order = [0, 1].map(|k| self.knots[k].degree() + 1);
+        let (slow, fast, ss, sf) =
+            if su >= sv { (order[0], order[1], su, sv) } else { (order[1], order[0], sv, su) };
+        // In rising order of the unknowns.
+        let place = |k: usize| k / fast * ss + k % fast * sf;
+        let count = slow * fast;
+        let width = count.next_multiple_of(LANES);
+        let (mut own, mut sums) = (zeros(1, width)?, zeros(count, width)?);
+        let mut cell = None;
+        for (first, row_u, row_v) in self.rows() {
+            if cell.is_some_and(|cell| cell != first) {
+                matrix.take(cell.unwrap_or_default(), &place, &mut sums, width);
+            }
+            cell = Some(first);
+            let (rows, along) = if su >= sv { (row_u, row_v) } else { (row_v, row_u) };
+            for (own, a) in own.chunks_exact_mut(fast).zip(rows) {
+                own.iter_mut().zip(along).for_each(|(own, b)| *own = a * b);
+            }
+            let (own, _) = own.as_chunks::<LANES>();
+            for (k, row) in sums.chunks_exact_mut(width).enumerate() {
+                let a = own[k / LANES][k % LANES];
+                let (row, _) = row.as_chunks_mut::<LANES>();
+                for (sum, b) in row[..=k / LANES].iter_mut().zip(own) {
+                    *sum = [0, 1, 2, 3].map(|x| sum[x] + a * b[x]);
+                }
+            }
+        }
+        matrix.take(cell.unwrap_or_default(), &place, &mut sums, width);
+        Ok(())
+    }
+
+    /// The poles (v runs fastest) nearest to `points`, relative to `center`, and how far the points are from their places.
+    pub fn solve(
+        &self,
+        points: &[Vector],
+        center: Vector,
+    ) -> Result<(Vec<Vector>, Vec<f64>), Error> {
         let [count_u, count_v] = self.counts();
         let count = count_u * count_v;
         let factor = self.normal()?.factored().ok_or_else(|| {
@@ -152,10 +173,15 @@ impl Design {
         })?;
         let mut unknowns = filled(count, [0.0; 3])?;
         let mut step = filled(count, [0.0; 3])?;
-        for _ in 0..CORRECTIONS {
-            let at = self.points(&unknowns);
-            let residuals = at.zip(points).map(|(at, point)| sub(sub(*point, center), at));
-            self.gathered(residuals, &mut step);
+        let mut before = 0.0;
+        for correction in 0..CORRECTIONS {
+            let from_center = points.iter().map(|point| sub(*point, center));
+            if correction == 0 {
+                self.gathered(from_center, &mut step);
+            } else {
+                let residuals = self.points(&unknowns).zip(from_center);
+                self.gathered(residuals.map(|(at, point)| sub(point, at)), &mut step);
+            }
             factor.solve(&mut step);
             let (mut moved, mut size) = (0.0f64, 0.0f64);
             for (x, dx) in unknowns.iter_mut().zip(&step) {
@@ -165,19 +191,41 @@ impl Design {
                     size = size.max(x[k].abs());
                 }
             }
-            if moved.is_nan() || moved <= SETTLED * size {
+            // The next one would be shorter by about as much again.
+            if moved.is_nan() || moved * (moved / before).min(1.0) <= SETTLED * size {
                 break;
             }
+            before = moved;
         }
         let pole = |k: usize| {
             let [i, j] = [k / count_v, k % count_v];
             unknowns[i * self.strides[0] + j * self.strides[1]]
         };
-        collect(count, (0..count).map(pole))
+        let away = self.points(&unknowns).zip(points);
+        let away = away.map(|(at, point)| norm(sub(sub(*point, center), at)));
+        Ok((collect(count, (0..count).map(pole))?, collect(points.len(), away)?))
     }
 }
 
 impl Band {
+    /// Adds the lower half of `sums` at the places of a cell, and clears it.
+    fn take(
+        &mut self,
+        cell: usize,
+        place: &dyn Fn(usize) -> usize,
+        sums: &mut [f64],
+        width: usize,
+    ) {
+        for (k, row) in sums.chunks_exact_mut(width).enumerate() {
+            let own = cell + place(k);
+            let start = own * (self.band + 1) + self.band - own + cell;
+            for (l, sum) in row[..=k].iter().enumerate() {
+                self.rows[start + place(l)] += sum;
+            }
+            row.fill(0.0);
+        }
+    }
+
     /// Adds `weight` times the square of `x(end) - 2 x(end - stride) + x(end - 2 stride)`.
     fn add_difference(&mut self, end: usize, stride: usize, weight: f64) {
         let factors = [1.0, -2.0, 1.0];

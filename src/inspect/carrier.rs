@@ -12,8 +12,9 @@
 //!   (|f''| + |f'| |S''| / sqrt(least metric)) / least metric
 //! ```
 //!
-//! Beside a collapsed edge that is no bound. What is said of the carrier is true of a shape that no point has left by more than
-//! e; e must be rounding there, and is reported.
+//! four times that, because f is known as a multiple of an implicit form, whose factor changes. Metric and weight are bounded on
+//! parts of the piece, as many as are needed. Beside a collapsed edge that is no bound. What is said of the carrier is true of a
+//! shape that no point has left by more than e; e must be rounding there, and is reported.
 
 use super::cell::{Forms, Known, Piece, Shape};
 use super::interval::Interval;
@@ -64,14 +65,15 @@ impl<'a> Elementary<'a> {
             return None;
         }
         let (mut moved, mut slack) = (0.0f64, 0.0f64);
+        let most = 0.2 * relative * FLOOR.max(least_value(carrier.kind, quantity));
         for &(k, ..) in starts {
             if is_loose || index.patches[k].has_collapsed() {
                 moved = moved.max(carrier.deviation + index.patches[k].spread);
             } else {
-                slack = slack.max(difference(index, k, carrier.deviation)?);
+                slack = slack.max(difference(index, k, &carrier, most)?);
             }
         }
-        if moved > ROUNDING || slack.is_nan() || slack > 0.2 * relative * FLOOR {
+        if moved > ROUNDING || slack.is_nan() || slack > most {
             return None;
         }
         let pieces = (0..index.patches.len()).map(|_| None).collect();
@@ -79,26 +81,98 @@ impl<'a> Elementary<'a> {
     }
 }
 
-/// How much the curvature of a piece that nowhere is farther than `e` from a carrier differs from that of the carrier.
-fn difference(index: &SurfaceIndex, k: usize, e: f64) -> Option<f64> {
-    let piece = patch_piece(index, k);
-    let forms = Forms::new(&piece);
-    let mut work = Vec::new();
-    let whole = [0.0, 1.0];
-    let mut at = |f: &Polynomial| f.on(whole, whole, &mut work).range;
-    let (area, first, last) = (at(&forms.area), at(&forms.metric[0]), at(&forms.metric[2]));
-    let weight = forms.weight.as_ref().map_or(Interval::point(1.0), &mut at);
-    if area.low <= 0.0 || weight.low <= 0.0 {
-        return None;
+/// What a quantity nowhere falls below on a carrier, as far as that is plain.
+fn least_value(kind: Kind, quantity: Quantity) -> f64 {
+    match (quantity, kind) {
+        (Quantity::Sharpest, Kind::Torus { minor, .. }) => 1.0 / minor,
+        (Quantity::Sharpest, Kind::Cylinder { radius } | Kind::Sphere { radius }) => 1.0 / radius,
+        _ => 0.0,
     }
-    let least = area.low / ((first.high + last.high) * weight.high * weight.high);
-    // The numerator of the implicit form has at most four times the degree of the piece (tori), and the fourth power of the
-    // weight below it: two derivatives of the quotient bring in no more than that power of the ratio of weights.
-    let n = 4.0 * index.degree.s.max(index.degree.t) as f64;
-    let ratio = (weight.high / weight.low).powi(4);
-    let (first, second) = (2.0 * n * n, 4.0 * n * n * (n * n - 1.0) / 3.0);
-    let bend = 4.0 * n * n * index.patches[k].radius * ratio;
-    Some(4.0 * ratio * e * (second + first * bend / least.sqrt()) / least)
+}
+
+/// Into how many parts a piece is cut, in either direction, until its least metric and its weights are known well enough.
+const CUTS: [usize; 3] = [1, 2, 4];
+
+/// How much the curvature of a piece that nowhere is farther than its deviation from a carrier differs from that of the carrier;
+/// as sharp as it must be to be below `enough`, if it can.
+fn difference(index: &SurfaceIndex, k: usize, carrier: &Carrier, enough: f64) -> Option<f64> {
+    let piece = patch_piece(index, k);
+    let (forms, count) = (Forms::new(&piece), piece.degree.count());
+    let weights = if piece.rational { &piece.poles[3 * count..] } else { &[1.0] };
+    let heavy = weights.iter().fold(0.0, |most: f64, w| most.max(*w));
+    let degree = index.degree.s.max(index.degree.t) as f64;
+    let mut least = None;
+    for cuts in CUTS {
+        let found = extremes(&forms, cuts).map(|(metric, weight)| {
+            let piece = Bent { degree, order: order(carrier.kind), heavy: heavy / weight };
+            4.0 * carrier.deviation * piece.difference(index.patches[k].radius, metric)
+        });
+        least = found.or(least);
+        if least.is_some_and(|x| x <= enough) {
+            break;
+        }
+    }
+    least
+}
+
+/// Bounds below the least eigenvalue of the metric and below the weight; none when they are not positive.
+fn extremes(forms: &Forms, cuts: usize) -> Option<(f64, f64)> {
+    let mut work = Vec::new();
+    let mut least = [f64::INFINITY; 2];
+    let part = |i: usize| [i as f64 / cuts as f64, (i + 1) as f64 / cuts as f64];
+    for i in 0..cuts * cuts {
+        let (s, t) = (part(i / cuts), part(i % cuts));
+        let mut at = |f: &Polynomial| f.on(s, t, &mut work).range;
+        let (area, first, last) = (at(&forms.area), at(&forms.metric[0]), at(&forms.metric[2]));
+        let weight = forms.weight.as_ref().map_or(Interval::point(1.0), &mut at);
+        if area.low <= 0.0 || weight.low <= 0.0 {
+            return None;
+        }
+        // W^6 D over W^4 (E + G).
+        let metric = area.low / ((first.high + last.high) * weight.high * weight.high);
+        least = [least[0].min(metric), least[1].min(weight.low)];
+    }
+    Some((least[0], least[1]))
+}
+
+/// How many coordinates are multiplied in the implicit form of a carrier.
+fn order(kind: Kind) -> f64 {
+    match kind {
+        Kind::Torus { .. } => 4.0,
+        Kind::Plane => 1.0,
+        _ => 2.0,
+    }
+}
+
+/// What the derivatives of a piece are bounded by.
+struct Bent {
+    degree: f64,
+    order: f64,
+    /// Greatest weight of a pole over the least value of the weight.
+    heavy: f64,
+}
+
+impl Bent {
+    /// `(|f''| + |f'| |S''| / sqrt(m)) / m` for `|f| <= 1`: f = N / D has a numerator of degree `n = q p` in either parameter and
+    /// the denominator `W^q`.
+    ///
+    /// ```text
+    ///   Markov      |N_s| <= 2 n^2 |N|      |N_ss| <= 4 n^2 (n^2 - 1) / 3 |N|      |N_st| <= (2 n^2)^2 |N|
+    ///   poles       |W_s| <= p h W      |W_ss|, |W_st| <= 2 p^2 h W      |S_ss|, |S_st| <= 6 p^2 (h + h^2) radius
+    /// ```
+    fn difference(&self, radius: f64, metric: f64) -> f64 {
+        let &Self { degree: p, order: q, heavy: h } = self;
+        let n = q * p;
+        let (once, twice) = (2.0 * n * n, 4.0 * n * n * (n * n - 1.0) / 3.0);
+        let steep = h.powi(q as i32);
+        // Derivatives of the denominator over it.
+        let (slope, bend) = (q * p * h, 2.0 * q * p * p * h + q * (q - 1.0) * (p * h) * (p * h));
+        let first = once * steep + slope;
+        // Sum of a row of the matrix of second derivatives: above their norm.
+        let second = steep * (twice + once * once) + 2.0 * (2.0 * first * slope + bend);
+        let shape = 12.0 * p * p * (h + h * h) * radius;
+        (second + std::f64::consts::SQRT_2 * first * shape / metric.sqrt()) / metric
+    }
 }
 
 impl Across {

@@ -268,7 +268,6 @@ impl Piece<'_> {
 #[derive(Clone, Copy)]
 struct Corner {
     point: Vector,
-    place: [f64; 2],
     foot: [f64; 2],
     distance: f64,
 }
@@ -309,7 +308,8 @@ struct Walk<'a, 'b> {
     to: &'b Parts<'a>,
     work: Workspace,
     lower: f64,
-    at: [f64; 2],
+    /// Where the lower bound is attained; the first place before any is.
+    at: Option<[f64; 2]>,
     rounding: f64,
     boxes: u64,
 }
@@ -323,10 +323,11 @@ impl Walk<'_, '_> {
         let proven = foot.lower_bound - self.rounding;
         if proven > self.lower {
             self.lower = proven;
-            self.at = place;
+            self.at = Some(place);
         }
+        self.at.get_or_insert(place);
         let distance = if foot.distance.is_nan() { f64::INFINITY } else { foot.distance };
-        Corner { point, place, foot: self.to.place(&foot), distance }
+        Corner { point, foot: self.to.place(&foot), distance }
     }
 
     fn area(&mut self, piece: usize, s: [f64; 2], t: [f64; 2], corners: [Corner; 4]) -> Area {
@@ -393,16 +394,13 @@ fn directed(
 ) -> Result<Directed, Error> {
     let rounding = from.rounding() + to.rounding();
     let work = Workspace::default();
-    let mut walk = Walk { from, to, work, lower: 0.0, at: [0.0; 2], rounding, boxes: 0 };
+    let mut walk = Walk { from, to, work, lower: 0.0, at: None, rounding, boxes: 0 };
     let mut heap = BinaryHeap::new();
     for piece in 0..from.parts.len() {
         let mut corner = |s: f64, t: f64| walk.corner(piece, s, t, None);
         let (a, b) = (corner(0.0, 0.0), corner(0.0, 1.0));
         let (c, d) = if from.has_s { (corner(1.0, 0.0), corner(1.0, 1.0)) } else { (a, b) };
         heap.push(walk.area(piece, [0.0, 1.0], [0.0, 1.0], [a, b, c, d]));
-        if walk.at == [0.0; 2] {
-            walk.at = a.place;
-        }
     }
     let mut looks = 0u64;
     let (mut upper, mut proven) = (0.0, true);
@@ -423,7 +421,8 @@ fn directed(
         heap.extend(walk.halve(&area));
     }
     let upper = upper.max(walk.lower);
-    let at = if from.has_s { walk.at } else { [walk.at[1], 0.0] };
+    let [u, v] = walk.at.unwrap_or_default();
+    let at = if from.has_s { [u, v] } else { [v, 0.0] };
     Ok(Directed { lower: walk.lower.max(0.0), upper, at, proven, boxes: walk.boxes })
 }
 

@@ -11,35 +11,14 @@
 //! surface irregularities using isophotes*, 1984; Klass, *Correction of local surface irregularities using reflection lines*,
 //! 1980.
 
+use super::paint::{Paint, Pattern, Sample};
 use super::umbilic::curvatures;
 use crate::bounds::{Vector, add, cross, dot, norm, scaled, sub};
 use crate::error::Error;
 use crate::knots::{Knots, Side};
-use crate::portable::SameDigits;
 use crate::surface::Surface;
 
-/// What is drawn on the surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Pattern {
-    /// Plain shading.
-    Shaded,
-    /// Stripes of a surrounding striped room, seen in the surface.
-    Zebra,
-    /// Bands of equal angle between normal and light.
-    Isophotes,
-    /// Bands where the reflection of the view meets parallel lamps overhead.
-    ReflectionLines,
-    /// Bands where the normal line passes parallel lamps overhead.
-    HighlightLines,
-    /// Greater principal curvature.
-    Greater,
-    /// Less principal curvature.
-    Less,
-    /// Mean curvature.
-    Mean,
-    /// Gaussian curvature.
-    Gaussian,
-}
+const BACKGROUND: Vector = [1.0; 3];
 
 /// How a picture is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,22 +70,7 @@ const MOST_LINES: usize = 1200;
 /// Grid lines in either direction at least.
 const LEAST_LINES: usize = 240;
 
-/// Between two lamps.
-const NO_LAMP: f64 = 0.75;
-
-const BACKGROUND: [f64; 3] = [1.0; 3];
-
-#[derive(Clone, Copy)]
-struct Vertex {
-    /// In the picture: right, up, towards the eye.
-    place: Vector,
-    normal: Vector,
-    value: f64,
-}
-
 struct Camera {
-    axes: [Vector; 3],
-    middle: [f64; 2],
     scale: f64,
     size: [usize; 2],
 }
@@ -119,19 +83,30 @@ fn unit(name: &str, v: Vector) -> Result<Vector, Error> {
     Err(Error::InvalidArgument(format!("{name}: is zero or not finite")))
 }
 
-/// The parameters of the grid: every span cut alike.
-fn lines(knots: &Knots) -> Vec<f64> {
+/// A line of the grid: its parameter, and the piece that it belongs to.
+type Line = (f64, Side);
+
+/// The lines of the grid: every span cut alike. Knots at which the tangent plane or the curvature may jump have two, one of
+/// either piece.
+fn lines(knots: &Knots) -> Vec<Line> {
     let spans: Vec<usize> = knots.spans().collect();
     let each = (LEAST_LINES.div_ceil(spans.len())).min((MOST_LINES / spans.len()).max(1));
     let t = knots.values();
-    let cut = |i: usize| (0..each).map(move |k| t[i] + (t[i + 1] - t[i]) * k as f64 / each as f64);
-    let mut all: Vec<f64> = spans.iter().flat_map(|&i| cut(i)).collect();
-    all.push(knots.domain().1);
+    let mut all: Vec<Line> = Vec::new();
+    for &i in &spans {
+        let jumps = knots.multiplicity(t[i]) + 1 >= knots.degree();
+        if jumps && !all.is_empty() {
+            all.push((t[i], Side::Below));
+        }
+        let cut = |k: usize| t[i] + (t[i + 1] - t[i]) * k as f64 / each as f64;
+        all.extend((0..each).map(|k| (cut(k), Side::Above)));
+    }
+    all.push((knots.domain().1, Side::Below));
     all
 }
 
-fn value(pattern: Pattern, surface: &Surface, at: [f64; 2]) -> (Vector, Vector, f64) {
-    match curvatures(surface, at, [Side::Above; 2]) {
+fn sample(pattern: Pattern, surface: &Surface, u: Line, v: Line) -> Sample {
+    match curvatures(surface, [u.0, v.0], [u.1, v.1]) {
         Some(c) => {
             let value = match pattern {
                 Pattern::Greater => c.principal[0],
@@ -140,14 +115,13 @@ fn value(pattern: Pattern, surface: &Surface, at: [f64; 2]) -> (Vector, Vector, 
                 Pattern::Gaussian => c.gaussian,
                 _ => 0.0,
             };
-            (c.point, c.normal, value)
+            Sample { place: c.point, normal: c.normal, value }
         }
-        None => (surface.evaluate(at[0], at[1]), [0.0; 3], f64::NAN),
+        None => {
+            let place = surface.evaluate(u.0, v.0);
+            Sample { place, normal: [0.0; 3], value: f64::NAN }
+        }
     }
-}
-
-fn is_coloured(pattern: Pattern) -> bool {
-    matches!(pattern, Pattern::Greater | Pattern::Less | Pattern::Mean | Pattern::Gaussian)
 }
 
 /// The surface as it looks.
@@ -157,6 +131,33 @@ fn is_coloured(pattern: Pattern) -> bool {
 /// # Errors
 /// A size, a direction or a range that is none, by name; memory that could not be had.
 pub fn picture(surface: &Surface, options: &PictureOptions) -> Result<Picture, Error> {
+    let axes = checked(options)?;
+    let mut grid = Grid::new(surface, options.pattern, axes)?;
+    grid.mend();
+    let [width, height] = options.size;
+    let camera = Camera::around(&mut grid.samples, [2 * width, 2 * height]);
+    let mut buffer = Buffer::new(camera.size)?;
+    grid.draw(&camera, &mut buffer);
+    let coloured = options.pattern.is_coloured();
+    let range = match options.range {
+        [0.0, 0.0] if coloured => seen_range(&buffer.samples),
+        range if coloured => range,
+        _ => [0.0; 2],
+    };
+    let light = unit("light", options.light)?;
+    let paint = Paint {
+        pattern: options.pattern,
+        light: axes.map(|axis| dot(axis, light)),
+        bands: options.bands as f64,
+        range,
+        reach: camera.reach(),
+    };
+    let pixels = buffer.pixels(options.size, &paint)?;
+    Ok(Picture { size: options.size, pixels, range })
+}
+
+/// The axes of the picture: right, up, towards the eye.
+fn checked(options: &PictureOptions) -> Result<[Vector; 3], Error> {
     let [width, height] = options.size;
     if width == 0 || height == 0 || width > 8192 || height > 8192 {
         return Err(Error::InvalidArgument("size: 1 to 8192 pixels each accepted".into()));
@@ -171,78 +172,77 @@ pub fn picture(surface: &Surface, options: &PictureOptions) -> Result<Picture, E
     if !(low.is_finite() && high.is_finite() && low <= high) {
         return Err(Error::InvalidArgument("range: is not increasing or not finite".into()));
     }
-    let (eye, light) = (unit("eye", options.eye)?, unit("light", options.light)?);
+    unit("light", options.light)?;
+    let eye = unit("eye", options.eye)?;
     let right = cross(unit("up", options.up)?, eye);
     if norm(right) < 1e-6 {
         return Err(Error::InvalidArgument("up: is the direction of the eye".into()));
     }
     let right = unit("up", right)?;
-    let axes = [right, cross(eye, right), eye];
-    let (us, vs) = (lines(surface.knots_u()), lines(surface.knots_v()));
-    let vertex = |u: f64, v: f64| {
-        let (point, normal, value) = value(options.pattern, surface, [u, v]);
-        let place = axes.map(|axis| dot(axis, point));
-        Vertex { place, normal: axes.map(|axis| dot(axis, normal)), value }
-    };
-    let mut grid: Vec<Vertex> = us
-        .iter()
-        .flat_map(|&u| vs.iter().map(move |&v| (u, v)))
-        .map(|(u, v)| vertex(u, v))
-        .collect();
-    mend(&mut grid, vs.len());
-    let camera = Camera::new(axes, &grid, [2 * width, 2 * height]);
-    let mut buffer = Buffer::new(camera.size)?;
-    for i in 0..us.len() - 1 {
-        for j in 0..vs.len() - 1 {
-            let at = |a: usize, b: usize| grid[(i + a) * vs.len() + j + b];
-            buffer.triangle(&camera, [at(0, 0), at(1, 0), at(1, 1)]);
-            buffer.triangle(&camera, [at(0, 0), at(1, 1), at(0, 1)]);
-        }
-    }
-    let coloured = is_coloured(options.pattern);
-    let range = match options.range {
-        [0.0, 0.0] if coloured => seen_range(&buffer.values),
-        range if coloured => range,
-        _ => [0.0; 2],
-    };
-    let light = camera.axes.map(|axis| dot(axis, light));
-    let paint = Paint {
-        pattern: options.pattern,
-        light,
-        bands: options.bands as f64,
-        range,
-        reach: camera.reach(),
-    };
-    let pixels = buffer.pixels([width, height], &paint)?;
-    Ok(Picture { size: options.size, pixels, range })
+    Ok([right, cross(eye, right), eye])
 }
 
-/// Vertices without a normal (collapsed edges) take those of their neighbours.
-fn mend(grid: &mut [Vertex], width: usize) {
-    let known = |v: &Vertex| v.value.is_finite() && v.normal != [0.0; 3];
-    for n in 0..grid.len() {
-        if known(&grid[n]) {
-            continue;
+/// Samples of the surface, row by row of equal u.
+struct Grid {
+    lines: [Vec<Line>; 2],
+    samples: Vec<Sample>,
+}
+
+impl Grid {
+    fn new(surface: &Surface, pattern: Pattern, axes: [Vector; 3]) -> Result<Self, Error> {
+        let [us, vs] = [lines(surface.knots_u()), lines(surface.knots_v())];
+        let count = us.len().saturating_mul(vs.len());
+        let mut samples = Vec::new();
+        samples.try_reserve_exact(count).map_err(|_| Error::OutOfMemory)?;
+        let turned = |x: Vector| axes.map(|axis| dot(axis, x));
+        for u in &us {
+            samples.extend(vs.iter().map(|v| {
+                let found = sample(pattern, surface, *u, *v);
+                Sample { place: turned(found.place), normal: turned(found.normal), ..found }
+            }));
         }
-        let (i, j) = (n / width, n % width);
-        let rows = grid.len() / width;
-        let near = [
-            (i + 1 < rows).then(|| n + width),
-            (i > 0).then(|| n - width),
-            (j + 1 < width).then(|| n + 1),
-            (j > 0).then(|| n - 1),
-        ];
-        if let Some(other) = near.into_iter().flatten().find(|&m| known(&grid[m])) {
-            (grid[n].normal, grid[n].value) = (grid[other].normal, grid[other].value);
-        } else {
-            (grid[n].normal, grid[n].value) = ([0.0, 0.0, 1.0], 0.0);
+        Ok(Self { lines: [us, vs], samples })
+    }
+
+    /// Samples without a normal (collapsed edges) take those of their neighbours.
+    fn mend(&mut self) {
+        let (rows, width) = (self.lines[0].len(), self.lines[1].len());
+        let known = |v: &Sample| v.value.is_finite() && v.normal != [0.0; 3];
+        for n in 0..self.samples.len() {
+            if known(&self.samples[n]) {
+                continue;
+            }
+            let (i, j) = (n / width, n % width);
+            let near = [
+                (i + 1 < rows).then(|| n + width),
+                (i > 0).then(|| n - width),
+                (j + 1 < width).then(|| n + 1),
+                (j > 0).then(|| n - 1),
+            ];
+            let other = near.into_iter().flatten().map(|m| self.samples[m]).find(known);
+            let (normal, value) = other.map_or(([0.0, 0.0, 1.0], 0.0), |o| (o.normal, o.value));
+            self.samples[n] = Sample { normal, value, ..self.samples[n] };
+        }
+    }
+
+    /// Two triangles for each cell; between the two lines of a knot there is none.
+    fn draw(&self, camera: &Camera, buffer: &mut Buffer) {
+        let [us, vs] = &self.lines;
+        let is_cell = |lines: &[Line], i: usize| lines[i].0 < lines[i + 1].0;
+        for i in (0..us.len() - 1).filter(|&i| is_cell(us, i)) {
+            for j in (0..vs.len() - 1).filter(|&j| is_cell(vs, j)) {
+                let at = |a: usize, b: usize| self.samples[(i + a) * vs.len() + j + b];
+                buffer.triangle(camera, [at(0, 0), at(1, 0), at(1, 1)]);
+                buffer.triangle(camera, [at(0, 0), at(1, 1), at(0, 1)]);
+            }
         }
     }
 }
 
 /// The values that are seen, but for a hundredth at either end.
-fn seen_range(values: &[f64]) -> [f64; 2] {
-    let mut seen: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
+fn seen_range(samples: &[Sample]) -> [f64; 2] {
+    let mut seen: Vec<f64> =
+        samples.iter().map(|sample| sample.value).filter(|x| x.is_finite()).collect();
     if seen.is_empty() {
         return [0.0; 2];
     }
@@ -252,24 +252,27 @@ fn seen_range(values: &[f64]) -> [f64; 2] {
 }
 
 impl Camera {
-    fn new(axes: [Vector; 3], grid: &[Vertex], size: [usize; 2]) -> Self {
-        let mut low = [f64::INFINITY; 2];
-        let mut high = [f64::NEG_INFINITY; 2];
-        for vertex in grid {
-            for k in 0..2 {
-                low[k] = low[k].min(vertex.place[k]);
-                high[k] = high[k].max(vertex.place[k]);
-            }
+    /// Sees all of the grid, whose places become lengths from its middle.
+    fn around(grid: &mut [Sample], size: [usize; 2]) -> Self {
+        let mut low = [f64::INFINITY; 3];
+        let mut high = [f64::NEG_INFINITY; 3];
+        for Sample { place, .. } in grid.iter() {
+            low = [0, 1, 2].map(|k| low[k].min(place[k]));
+            high = [0, 1, 2].map(|k| high[k].max(place[k]));
+        }
+        let middle = [0, 1, 2].map(|k| 0.5 * (low[k] + high[k]));
+        for sample in grid.iter_mut() {
+            sample.place = sub(sample.place, middle);
         }
         let fit = |k: usize| 0.94 * size[k] as f64 / (high[k] - low[k]).max(f64::MIN_POSITIVE);
         let scale = fit(0).min(fit(1)).min(1e300);
-        Self { axes, middle: [0, 1].map(|k| 0.5 * (low[k] + high[k])), scale, size }
+        Self { scale, size }
     }
 
-    /// Where a vertex is, in samples from the upper left corner.
-    fn sample(&self, vertex: &Vertex) -> [f64; 2] {
-        let x = (vertex.place[0] - self.middle[0]) * self.scale + 0.5 * self.size[0] as f64;
-        let y = 0.5 * self.size[1] as f64 - (vertex.place[1] - self.middle[1]) * self.scale;
+    /// Where a sample is, in samples from the upper left corner.
+    fn sample(&self, sample: &Sample) -> [f64; 2] {
+        let x = 0.5 * self.size[0] as f64 + sample.place[0] * self.scale;
+        let y = 0.5 * self.size[1] as f64 - sample.place[1] * self.scale;
         [x, y]
     }
 
@@ -282,10 +285,7 @@ impl Camera {
 /// What is nearest to the eye in each sample.
 struct Buffer {
     size: [usize; 2],
-    depth: Vec<f64>,
-    places: Vec<Vector>,
-    normals: Vec<Vector>,
-    values: Vec<f64>,
+    samples: Vec<Sample>,
 }
 
 fn filled<T: Copy>(count: usize, x: T) -> Result<Vec<T>, Error> {
@@ -298,16 +298,12 @@ fn filled<T: Copy>(count: usize, x: T) -> Result<Vec<T>, Error> {
 impl Buffer {
     fn new(size: [usize; 2]) -> Result<Self, Error> {
         let count = size[0] * size[1];
-        Ok(Self {
-            size,
-            depth: filled(count, f64::NEG_INFINITY)?,
-            places: filled(count, [0.0; 3])?,
-            normals: filled(count, [0.0; 3])?,
-            values: filled(count, f64::NAN)?,
-        })
+        let nothing = [0.0, 0.0, f64::NEG_INFINITY];
+        let empty = Sample { place: nothing, normal: [0.0; 3], value: f64::NAN };
+        Ok(Self { size, samples: filled(count, empty)? })
     }
 
-    fn triangle(&mut self, camera: &Camera, corners: [Vertex; 3]) {
+    fn triangle(&mut self, camera: &Camera, corners: [Sample; 3]) {
         let [a, b, c] = corners.map(|v| camera.sample(&v));
         let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         if area == 0.0 || !area.is_finite() {
@@ -328,18 +324,16 @@ impl Buffer {
                 if shares.iter().any(|share| *share < -1e-9) {
                     continue;
                 }
-                let mix = |f: fn(&Vertex) -> Vector| {
+                let mix = |f: fn(&Sample) -> Vector| {
                     let sum =
                         add(scaled(f(&corners[0]), shares[0]), scaled(f(&corners[1]), shares[1]));
                     add(sum, scaled(f(&corners[2]), shares[2]))
                 };
                 let place = mix(|v| v.place);
                 let at = y * self.size[0] + x;
-                if place[2] > self.depth[at] {
-                    self.depth[at] = place[2];
-                    self.places[at] = place;
-                    self.normals[at] = mix(|v| v.normal);
-                    self.values[at] = (0..3).map(|k| shares[k] * corners[k].value).sum();
+                if place[2] > self.samples[at].place[2] {
+                    let value = (0..3).map(|k| shares[k] * corners[k].value).sum();
+                    self.samples[at] = Sample { place, normal: mix(|v| v.normal), value };
                 }
             }
         }
@@ -349,91 +343,15 @@ impl Buffer {
         let mut pixels = filled(3 * width * height, 0u8)?;
         for (n, pixel) in pixels.chunks_exact_mut(3).enumerate() {
             let (x, y) = (2 * (n % width), 2 * (n / width));
-            let mut sum = [0.0; 3];
-            for at in [0, 1, self.size[0], self.size[0] + 1].map(|d| y * self.size[0] + x + d) {
-                let seen = self.depth[at] > f64::NEG_INFINITY;
-                let colour = if seen {
-                    paint.colour(self.places[at], self.normals[at], self.values[at])
-                } else {
-                    BACKGROUND
-                };
-                sum = add(sum, colour);
-            }
-            for (out, c) in pixel.iter_mut().zip(sum) {
-                *out = (255.0 * (0.25 * c).clamp(0.0, 1.0)).round() as u8;
+            let samples = [0, 1, self.size[0], self.size[0] + 1].map(|d| {
+                let sample = self.samples[y * self.size[0] + x + d];
+                (sample.place[2] > f64::NEG_INFINITY).then_some(sample)
+            });
+            let colour = paint.pixel(samples, BACKGROUND);
+            for (out, c) in pixel.iter_mut().zip(colour) {
+                *out = (255.0 * c.clamp(0.0, 1.0)).round() as u8;
             }
         }
         Ok(pixels)
-    }
-}
-
-/// How a sample gets its colour; everything in the axes of the picture.
-struct Paint {
-    pattern: Pattern,
-    light: Vector,
-    bands: f64,
-    range: [f64; 2],
-    reach: f64,
-}
-
-impl Paint {
-    fn colour(&self, place: Vector, normal: Vector, value: f64) -> Vector {
-        let size = norm(normal);
-        let mut n = if size > 0.0 { scaled(normal, 1.0 / size) } else { [0.0, 0.0, 1.0] };
-        if n[2] < 0.0 {
-            n = scaled(n, -1.0);
-        }
-        let lit = 0.35 + 0.65 * dot(n, self.light).max(0.0);
-        let stripe = |x: f64| if x.rem_euclid(1.0) < 0.5 { 0.12 } else { 1.0 };
-        let shaded = |x: f64| scaled([0.96, 0.97, 1.0], x * (0.55 + 0.45 * lit));
-        // The eye looks along (0, 0, -1): its reflection is 2 n_z n - eye.
-        let seen = sub(scaled(n, 2.0 * n[2]), [0.0, 0.0, 1.0]);
-        let across = self.lamp_direction();
-        match self.pattern {
-            Pattern::Shaded => scaled([0.62, 0.72, 0.86], lit),
-            Pattern::Zebra => {
-                let angle = seen[1].clamp(-1.0, 1.0).arcsine() / std::f64::consts::PI + 0.5;
-                shaded(stripe(angle * self.bands))
-            }
-            Pattern::Isophotes => {
-                let angle = dot(n, self.light).clamp(-1.0, 1.0).arccosine() / std::f64::consts::PI;
-                shaded(stripe(2.0 * angle * self.bands))
-            }
-            Pattern::ReflectionLines => shaded(stripe(self.passes(place, seen, across))),
-            Pattern::HighlightLines => shaded(stripe(self.passes(place, n, across))),
-            _ => scaled(self.scale_colour(value), 0.45 + 0.55 * lit),
-        }
-    }
-
-    /// Direction across the lamps, in their plane.
-    fn lamp_direction(&self) -> Vector {
-        let across = cross(self.light, [0.0, 1.0, 0.0]);
-        let size = norm(across);
-        if size > 1e-6 { scaled(across, 1.0 / size) } else { [1.0, 0.0, 0.0] }
-    }
-
-    /// Number of the lamp that the line from `place` along `direction` meets in the plane of the lamps; there are no lamps
-    /// beyond the width of the picture and below.
-    fn passes(&self, place: Vector, direction: Vector, across: Vector) -> f64 {
-        let height = 2.0 * self.reach - dot(place, self.light);
-        let rise = dot(direction, self.light);
-        if rise < 1e-3 {
-            return NO_LAMP;
-        }
-        let hit = add(place, scaled(direction, height / rise));
-        let lamp = dot(hit, across) / (2.0 * self.reach) * self.bands;
-        if lamp.abs() > self.bands { NO_LAMP } else { lamp }
-    }
-
-    /// Blue, white, red; white is zero when the range holds it.
-    fn scale_colour(&self, value: f64) -> Vector {
-        let [low, high] = self.range;
-        let middle = if low < 0.0 && high > 0.0 { 0.0 } else { 0.5 * (low + high) };
-        let half = (high - middle).max(middle - low);
-        let x = if half > 0.0 { ((value - middle) / half).clamp(-1.0, 1.0) } else { 0.0 };
-        let x = if x.is_nan() { 0.0 } else { x };
-        let end = if x < 0.0 { [0.13, 0.35, 0.72] } else { [0.78, 0.15, 0.14] };
-        let white = [0.97, 0.97, 0.95];
-        add(scaled(white, 1.0 - x.abs()), scaled(end, x.abs()))
     }
 }
