@@ -10,7 +10,7 @@ use footpoint::march::split::{cuts_of, split};
 use footpoint::march::{Branch, Intersection, MarchOptions, intersect};
 use footpoint::surface::Surface;
 use footpoint::trim::TrimmedSurface;
-use march_shapes::{P, cylinder, moved, plane, torus, z_to_x};
+use march_shapes::{Motion, P, cylinder, moved, plane, torus, z_to_x};
 
 fn indexed(s: &Surface) -> IndexedSurface {
     IndexedSurface::new(s.clone())
@@ -100,6 +100,28 @@ fn the_border_of_an_overlap_is_fitted_from_corner_to_corner() {
         assert!((4..=5).contains(&parts.len()), "{}", parts.len());
         check_parts(&large, &small, &parts);
         assert!(parts.iter().all(|part| part.error <= 1e-9 && part.space.poles().len() < 100));
+    }
+}
+
+#[test]
+fn the_border_of_an_overlap_goes_over_the_seam_of_the_other_surface() {
+    // The same tube, shorter and turned about its axis: the seam of the longer one lies in the middle of the rims.
+    let long = cylinder(1.0, 2.0);
+    let turn = Motion::new([1f64.cos(), 0.0, 0.0, 1f64.sin()], 1.0, [0.0; 3]);
+    let short = moved(&cylinder(1.0, 1.0), &turn);
+    for [a, b] in [[&long, &short], [&short, &long]] {
+        let found = meet(a, b);
+        assert!(found.branches.len() == 2 && found.branches.iter().all(|rim| rim.bounds_overlap));
+        for rim in &found.branches {
+            let parts = fitted(a, b, rim, 1e-6);
+            assert!((2..=4).contains(&parts.len()), "{}", parts.len());
+            check_parts(a, b, &parts);
+            assert!(
+                parts.iter().all(|part| part.error <= 1e-4),
+                "{:?}",
+                parts.iter().map(|p| p.error).collect::<Vec<_>>()
+            );
+        }
     }
 }
 

@@ -143,6 +143,10 @@ impl Side<'_, '_, '_> {
                 return None;
             }
             let from = out[out.len() - 1];
+            if let Some([before, behind]) = self.seam(from, to, ranges) {
+                waiting.extend([to, behind, before]);
+                continue;
+            }
             let middle = self.seen(0.5 * (from.at[r] + to.at[r]), ranges);
             match middle {
                 Some(m)
@@ -154,6 +158,41 @@ impl Side<'_, '_, '_> {
             }
         }
         (out.len() > 1).then_some(out)
+    }
+
+    /// The parameter of the other surface that goes over a seam between two places, which are not the two of that seam.
+    fn jump(&self, from: &Place, to: &Place) -> Option<usize> {
+        let (other, o) = (self.search.surfaces[1 - self.own], 2 - 2 * self.own);
+        let (domain, closed) = (other.domain(), [other.is_closed_u(), other.is_closed_v()]);
+        (0..2).filter(|_| norm(sub(from.x, to.x)) > self.search.touching_gap(64.0)).find(|&k| {
+            let width = domain[2 * k + 1] - domain[2 * k];
+            closed[k] && (from.at[o + k] - to.at[o + k]).abs() > 0.5 * width
+        })
+    }
+
+    /// The place on a seam of the other surface between two places, seen from either side.
+    fn seam(&self, mut from: Place, mut to: Place, ranges: &Ranges) -> Option<[Place; 2]> {
+        let k = self.jump(&from, &to)?;
+        let (r, o) = (2 * self.own + 1 - self.fixed, 2 - 2 * self.own);
+        let domain = self.search.surfaces[1 - self.own].domain();
+        let [low, high] = [domain[2 * k], domain[2 * k + 1]];
+        let rises = from.at[o + k] > to.at[o + k];
+        for _ in 0..60 {
+            let t = 0.5 * (from.at[r] + to.at[r]);
+            let Some(middle) = self.seen(t, ranges).filter(|_| t != from.at[r] && t != to.at[r])
+            else {
+                break;
+            };
+            let is_before = (middle.at[o + k] > 0.5 * (low + high)) == rises;
+            *(if is_before { &mut from } else { &mut to }) = middle;
+        }
+        if norm(sub(from.x, to.x)) > self.search.touching_gap(64.0) {
+            return None;
+        }
+        let mut both = [from, from];
+        let ends = if rises { [high, low] } else { [low, high] };
+        (both[0].at[o + k], both[1].at[o + k]) = (ends[0], ends[1]);
+        Some(both)
     }
 }
 
