@@ -16,9 +16,11 @@
 //! Limit: where the Hessian is singular the convergence is linear and ends at the step limit.
 
 mod curve;
+mod lockstep;
 mod surface;
 
 pub use curve::{CurveJets, foot_on_curve, land_on_curve};
+pub use lockstep::{Course, CurveSteps, SurfaceSteps, Worth, is_inside};
 pub use surface::{SurfaceJets, foot_on_surface, land_on_surface};
 
 /// Which local iteration is used.

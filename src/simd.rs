@@ -25,7 +25,7 @@ use std::ops::{Add, Div, Mul, Sub};
 
 pub use portable::Portable;
 
-/// A vector of `N` doubles.
+/// A vector of `N` doubles; a double is one of one.
 pub trait Lanes<const N: usize>:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {

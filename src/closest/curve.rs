@@ -1,6 +1,7 @@
 //! Nearest point of a curve.
 
 mod elementary;
+mod lockstep;
 mod ties;
 
 pub use ties::{neighbour, shortest, wrapped};
@@ -121,6 +122,25 @@ impl IndexedCurve {
         foot
     }
 
+    /// The global search of a query; `floor`: the gap that rounding leaves to it.
+    fn search<'a>(
+        &'a self,
+        index: &'a CurveIndex,
+        query: Vector,
+        options: &'a QueryOptions,
+        floor: f64,
+    ) -> CurveSearch<'a> {
+        CurveSearch {
+            index,
+            reach: index.reach.as_ref(),
+            whole: self.whole(index, query, floor),
+            query: index.frame.enter(query),
+            range: self.range(options),
+            options,
+            steps: position_steps(index.degree()),
+        }
+    }
+
     /// The global search; `within`: only what is nearer than that counts, see [`nothing_within`].
     pub(super) fn global(
         &self,
@@ -133,8 +153,6 @@ impl IndexedCurve {
         mut trace: Option<Trace>,
     ) -> FootPoint {
         let traced = trace.is_some();
-        let q = index.frame.enter(query);
-        let steps = position_steps(index.degree());
         let floor = Self::floor(index, query);
         let gap = options.accuracy(&index.frame).max(floor);
         let allowed = gap.max(floor + rounding_floor(&index.frame, query, 0.0));
@@ -143,11 +161,12 @@ impl IndexedCurve {
         } else {
             default_budget(2 * index.degree() + 1)
         };
-        let whole = self.whole(index, query, floor);
-        let range = self.range(options);
-        // Where only what is nearer than another shape counts, a foot of this one settles nothing.
-        let reach = index.reach.as_ref().filter(|_| within.is_none());
-        let search = CurveSearch { index, reach, whole, query: q, range, options, steps };
+        let mut search = self.search(index, query, options, floor);
+        let q = search.query;
+        if within.is_some() {
+            // Where only what is nearer than another shape counts, a foot of this one settles nothing.
+            search.reach = None;
+        }
         if !traced && let Some(mut foot) = self.elementary(index, query, &search, (gap, allowed)) {
             foot.flags |= if hint.is_some() { flag::HINT_USED } else { 0 };
             return foot;
@@ -336,14 +355,17 @@ impl CurveSearch<'_> {
     }
 
     fn start_at(&self, u: f64, proof: &mut Proof) {
-        let u = u.clamp(self.range[0], self.range[1]);
-        let k = self
-            .index
-            .segments
-            .partition_point(|s| s.u.ends[1] <= u)
-            .min(self.index.segments.len() - 1);
+        let (k, start) = self.place_of(u);
         let Some(range) = self.local_range(k) else { return };
-        self.iterate_from(k, self.index.segments[k].u.local(u), range, proof);
+        self.iterate_from(k, start, range, proof);
+    }
+
+    /// The segment of a parameter, and its local parameter.
+    fn place_of(&self, u: f64) -> (usize, f64) {
+        let u = u.clamp(self.range[0], self.range[1]);
+        let segments = &self.index.segments;
+        let k = segments.partition_point(|s| s.u.ends[1] <= u).min(segments.len() - 1);
+        (k, segments[k].u.local(u))
     }
 
     /// Begins at a place that is likely near, where a foot may settle the search.
@@ -351,16 +373,19 @@ impl CurveSearch<'_> {
         if self.options.method != Method::Auto {
             return;
         }
-        let level = self.index.grid.level;
-        let near = self.reach.and_then(|reach| reach.start(self.query, level));
-        let Some((k, start)) = near.or_else(|| self.guess()) else {
-            return;
-        };
+        let Some((k, start)) = self.near() else { return };
         let Some(range) = self.local_range(k) else { return };
         self.iterate_from(k, start, range, proof);
         if proof.settled.is_none() {
             self.polish(proof);
         }
+    }
+
+    /// A place that is likely near.
+    fn near(&self) -> Option<(usize, f64)> {
+        let level = self.index.grid.level;
+        let near = self.reach.and_then(|reach| reach.start(self.query, level));
+        near.or_else(|| self.guess())
     }
 
     /// The place on the chord of a near segment.

@@ -1,6 +1,7 @@
 //! Nearest point of a surface.
 
 mod elementary;
+mod lockstep;
 mod record;
 mod rescue;
 mod ties;
@@ -129,6 +130,25 @@ impl IndexedSurface {
         foot
     }
 
+    /// The global search of a query; `floor`: the gap that rounding leaves to it.
+    fn search<'a>(
+        &'a self,
+        index: &'a SurfaceIndex,
+        query: Vector,
+        options: &'a QueryOptions,
+        floor: f64,
+    ) -> SurfaceSearch<'a> {
+        SurfaceSearch {
+            index,
+            reach: index.reach.as_ref(),
+            whole: self.whole(index, query, floor),
+            query: index.frame.enter(query),
+            range: self.range(options),
+            options,
+            steps: position_steps(index.degree.s + index.degree.t),
+        }
+    }
+
     /// The global search; `within`: only what is nearer than that counts, see [`nothing_within`].
     pub(super) fn global(
         &self,
@@ -141,18 +161,17 @@ impl IndexedSurface {
         mut trace: Option<Trace>,
     ) -> FootPoint {
         let traced = trace.is_some();
-        let q = index.frame.enter(query);
-        let steps = position_steps(index.degree.s + index.degree.t);
         let floor = Self::floor(index, query);
         let gap = options.accuracy(&index.frame).max(floor);
         let allowed = gap.max(floor + rounding_floor(&index.frame, query, 0.0));
         let coefficients = index.degree.times(index.degree).count();
         let budget = if options.budget > 0 { options.budget } else { default_budget(coefficients) };
-        let whole = self.whole(index, query, floor);
-        let range = self.range(options);
-        // Where only what is nearer than another shape counts, a foot of this one settles nothing.
-        let reach = index.reach.as_ref().filter(|_| within.is_none());
-        let search = SurfaceSearch { index, reach, whole, query: q, range, options, steps };
+        let mut search = self.search(index, query, options, floor);
+        let q = search.query;
+        if within.is_some() {
+            // Where only what is nearer than another shape counts, a foot of this one settles nothing.
+            search.reach = None;
+        }
         if !traced && let Some(mut foot) = self.elementary(index, query, &search, (gap, allowed)) {
             foot.flags |= if hint.is_some() { flag::HINT_USED } else { 0 };
             return foot;
@@ -281,6 +300,13 @@ impl SurfaceSearch<'_> {
     }
 
     fn start_at(&self, at: [f64; 2], proof: &mut Proof) {
+        let (k, start) = self.place_of(at);
+        let Some(range) = self.local_range(k) else { return };
+        self.iterate_from(k, start, range, self.options.method, proof);
+    }
+
+    /// The patch of a parameter pair, and its local parameters.
+    fn place_of(&self, at: [f64; 2]) -> (usize, [f64; 2]) {
         let at =
             [at[0].clamp(self.range[0], self.range[1]), at[1].clamp(self.range[2], self.range[3])];
         // The last row that begins at or before it.
@@ -293,15 +319,8 @@ impl SurfaceSearch<'_> {
         let column =
             self.index.patches[..self.index.columns - 1].partition_point(|p| p.v.ends[1] <= at[1]);
         let k = row * self.index.columns + column;
-        let Some(range) = self.local_range(k) else { return };
         let patch = &self.index.patches[k];
-        self.iterate_from(
-            k,
-            [patch.u.local(at[0]), patch.v.local(at[1])],
-            range,
-            self.options.method,
-            proof,
-        );
+        (k, [patch.u.local(at[0]), patch.v.local(at[1])])
     }
 
     /// Begins at a place that is likely near, where a foot may settle the search.
@@ -309,16 +328,19 @@ impl SurfaceSearch<'_> {
         if self.options.method != Method::Auto {
             return;
         }
-        let level = self.index.grid.level;
-        let near = self.reach.and_then(|reach| reach.start(self.query, level));
-        let Some((k, start)) = near.or_else(|| self.guess()) else {
-            return;
-        };
+        let Some((k, start)) = self.near() else { return };
         let Some(range) = self.local_range(k) else { return };
         self.iterate_from(k, start, range, Method::Auto, proof);
         if proof.settled.is_none() {
             self.cross(proof);
         }
+    }
+
+    /// A place that is likely near.
+    fn near(&self) -> Option<(usize, [f64; 2])> {
+        let level = self.index.grid.level;
+        let near = self.reach.and_then(|reach| reach.start(self.query, level));
+        near.or_else(|| self.guess())
     }
 
     /// The place on the plane through the corners of a near patch.

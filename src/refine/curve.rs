@@ -84,10 +84,7 @@ fn iterate(
         let mut candidate = curve.jet(next);
         taken += 1;
         for _ in 0..12 {
-            if last
-                || candidate.squared() < jet.squared()
-                || candidate.gradient().abs() < 0.5 * g.abs() && near(&candidate, &jet)
-            {
+            if last || is_better(worth(&candidate), worth(&jet)) {
                 break;
             }
             next = s + 0.5 * (next - s);
@@ -107,9 +104,16 @@ fn iterate(
     Landing { at: s, seen: s, jet, taken }
 }
 
-/// Whether two squared distances differ by rounding only; then the gradient decides which is better.
-fn near(a: &Jet1, b: &Jet1) -> bool {
-    (a.squared() - b.squared()).abs() <= 1e-13 * b.squared() + 1e-28
+/// Squared distance and gradient.
+fn worth(jet: &Jet1) -> [f64; 2] {
+    [jet.squared(), jet.gradient()]
+}
+
+/// Whether a place, by its squared distance and gradient, is better than the one before: nearer, or as near but for rounding
+/// with a gradient less than half as steep.
+pub(super) fn is_better([a, new]: [f64; 2], [b, old]: [f64; 2]) -> bool {
+    let is_near = || (a - b).abs() <= 1e-13 * b + 1e-28;
+    a < b || new.abs() < 0.5 * old.abs() && is_near()
 }
 
 fn tell(trace: &mut Option<Trace>, curve: &impl CurveJets, step: u32, s: f64, jet: &Jet1) {

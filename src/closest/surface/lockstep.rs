@@ -1,0 +1,225 @@
+//! Many queries on a surface at once.
+
+use crate::bounds::{Vector, norm, sub};
+use crate::closest::lockstep::{Fate, Flight, Landing, SurfaceMemory, row, rows};
+use crate::closest::settle::settled_together;
+use crate::closest::{
+    FootPoint, QueryOptions, Scope, Workspace, bounded, flag, is_bad, mark_inversion,
+    rounding_floor,
+};
+use crate::index::{IndexedSurface, Reach, SurfaceIndex, position_error};
+use crate::jet::{MOST_DEGREE, WIDTH};
+use crate::refine::{Method, is_inside};
+
+/// What is asked of a query, by its number.
+pub type Asked<'a> = &'a dyn Fn(usize) -> (Vector, Option<[f64; 2]>);
+
+impl IndexedSurface {
+    /// As [`Self::closest`] for the queries 0, 1, ... of `out`, bit for bit, in less time.
+    ///
+    /// `asked` tells a query and its hint. No memory is asked for once the workspace has held as many queries.
+    pub fn closest_together(
+        &self,
+        asked: Asked,
+        options: &QueryOptions,
+        workspace: &mut Workspace,
+        out: &mut [FootPoint],
+    ) {
+        let mut alone = std::mem::take(&mut workspace.lockstep.alone);
+        alone.clear();
+        let flown = self.fly(asked, options, workspace.lockstep.surface.get_or_insert_default(), &mut alone, out);
+        if !flown {
+            alone.clear();
+            alone.extend(0..out.len());
+        }
+        for &number in &alone {
+            let (query, hint) = asked(number);
+            out[number] = self.closest(query, hint, options, workspace, None);
+        }
+        workspace.lockstep.alone = alone;
+    }
+
+    /// As [`Self::invert`] for each, see [`Self::closest_together`].
+    pub fn invert_together(
+        &self,
+        asked: Asked,
+        options: &QueryOptions,
+        workspace: &mut Workspace,
+        out: &mut [FootPoint],
+    ) {
+        self.closest_together(asked, options, workspace, out);
+        if let Ok(index) = self.index(&mut || false) {
+            let tolerance = options.tolerance(&index.frame);
+            for foot in out.iter_mut().filter(|foot| foot.distance.is_finite()) {
+                mark_inversion(foot, tolerance);
+            }
+        }
+    }
+
+    /// Answers what lanes can and notes the rest; false where that is all.
+    fn fly(
+        &self,
+        asked: Asked,
+        options: &QueryOptions,
+        memory: &mut SurfaceMemory,
+        alone: &mut Vec<usize>,
+        out: &mut [FootPoint],
+    ) -> bool {
+        let Ok(index) = self.index(&mut || false) else { return false };
+        let Some(reach) = &index.reach else { return false };
+        let plain = options.scope == Scope::Global
+            && options.method == Method::Auto
+            && options.domain.is_none();
+        let degree = index.degree.s.max(index.degree.t);
+        if out.len() < 2 || !plain || index.analytic.is_some() || degree > MOST_DEGREE {
+            return false;
+        }
+        memory.flights.clear();
+        for number in 0..out.len() {
+            match self.launch(index, asked(number), options, number) {
+                Some(flight) => memory.flights.push(flight),
+                None => alone.push(number),
+            }
+        }
+        while !memory.flights.is_empty() {
+            memory.landings.clear();
+            advance(index, memory, alone);
+            for k in (0..memory.landings.len()).step_by(WIDTH) {
+                let end = memory.landings.len().min(k + WIDTH);
+                self.settle(index, reach, [k, end], memory, asked, options, alone, out);
+            }
+        }
+        true
+    }
+
+    /// A query at its start.
+    fn launch(
+        &self,
+        index: &SurfaceIndex,
+        (query, hint): (Vector, Option<[f64; 2]>),
+        options: &QueryOptions,
+        number: usize,
+    ) -> Option<Flight<[f64; 2]>> {
+        if is_bad(query) {
+            return None;
+        }
+        let search = self.search(index, query, options, Self::floor(index, query));
+        let hint = hint.filter(|at| at.iter().all(|x| x.is_finite()));
+        let (piece, at) = hint.map(|at| search.place_of(at)).or_else(|| search.near())?;
+        let patch = &index.patches[piece];
+        let q = sub(search.query, patch.center);
+        let sizes = [norm(q), norm(search.query)];
+        let position =
+            position_error(search.steps, index.rational, patch.radius, sizes[0], sizes[1]);
+        at.iter().all(|&x| is_inside(x)).then_some(Flight {
+            number,
+            piece,
+            at,
+            query: q,
+            position,
+            worth: None,
+            step: None,
+            taken: 0,
+            is_foot: false,
+        })
+    }
+
+    /// Settles landings `first..end` and makes their records; those whose foot is to be looked at fly on.
+    #[allow(clippy::too_many_arguments)]
+    fn settle(
+        &self,
+        index: &SurfaceIndex,
+        reach: &Reach,
+        [first, end]: [usize; 2],
+        memory: &mut SurfaceMemory,
+        asked: Asked,
+        options: &QueryOptions,
+        alone: &mut Vec<usize>,
+        out: &mut [FootPoint],
+    ) {
+        let landings = &memory.landings[first..end];
+        let landed = &mut memory.landed;
+        landed.jets = [0, 1, 2].map(|k| rows(landings, |landing| landing.jet[k]));
+        landed.w = row(landings, |landing| landing.w);
+        landed.position = row(landings, |landing| landing.flight.position);
+        for (q, landing) in landings.iter().enumerate() {
+            let bend = reach.bend(landing.flight.piece, landing.seen);
+            (landed.bends[0][q], landed.bends[1][q]) = (bend[0], bend[1]);
+        }
+        let bounds = settled_together(reach, landed, index.degree, index.grid.level);
+        for (landing, bound) in landings.iter().zip(bounds) {
+            let flight = landing.flight;
+            let (query, hint) = asked(flight.number);
+            let floor = Self::floor(index, query);
+            let gap = options.accuracy(&index.frame).max(floor);
+            let allowed = gap.max(floor + rounding_floor(&index.frame, query, 0.0));
+            let gap = 0.5 * gap * index.frame.scale;
+            let Some([bound, _]) = bound.filter(|[bound, d]| *bound >= d - gap) else {
+                if landing.seen == flight.at {
+                    alone.push(flight.number);
+                } else {
+                    memory.flights.push(Flight { is_foot: true, ..flight });
+                }
+                continue;
+            };
+            let patch = &index.patches[flight.piece];
+            let range = self.surface().domain();
+            let at = [
+                patch.u.global(flight.at[0]).clamp(range[0], range[1]),
+                patch.v.global(flight.at[1]).clamp(range[2], range[3]),
+            ];
+            let mut foot = self.foot_at(index, query, at, range);
+            bounded(&mut foot, bound.max(0.0), &index.frame, allowed);
+            if foot.flags & flag::NOT_PROVEN != 0 {
+                alone.push(flight.number);
+                continue;
+            }
+            foot.iterations = flight.taken;
+            let finite = hint.is_some_and(|at| at.iter().all(|x| x.is_finite()));
+            foot.flags |= if finite { flag::HINT_USED } else { 0 };
+            out[flight.number] = foot;
+        }
+    }
+}
+
+/// One step of every query on its way.
+fn advance(index: &SurfaceIndex, memory: &mut SurfaceMemory, alone: &mut Vec<usize>) {
+    let SurfaceMemory { flights, landings, jets, steps, .. } = memory;
+    let level = index.grid.level;
+    let mut kept = 0;
+    for first in (0..flights.len()).step_by(WIDTH) {
+        let count = (flights.len() - first).min(WIDTH);
+        let chunk = &flights[first..first + count];
+        let mut nets = [&[][..]; WIDTH];
+        for (net, flight) in nets.iter_mut().zip(chunk) {
+            *net = index.net(flight.piece).lanes;
+        }
+        let at = [0, 1].map(|k| row(chunk, |flight| flight.at[k]));
+        jets.look(index.degree, &nets[..count], &at, level);
+        steps.take(jets, &rows(chunk, |flight| flight.query), index.rational, level);
+        for q in 0..count {
+            let mut flight = flights[first + q];
+            let seen = flight.at;
+            flight.taken += 1;
+            let fate = if flight.is_foot {
+                Fate::Landed
+            } else if flight.worth.is_some_and(|before| !steps.is_better(q, before)) {
+                Fate::Alone
+            } else {
+                flight.follow(steps.course(q, seen, flight.step), steps.worth(q))
+            };
+            match fate {
+                Fate::Alone => alone.push(flight.number),
+                Fate::Flies => {
+                    flights[kept] = flight;
+                    kept += 1;
+                }
+                Fate::Landed => {
+                    let jet = steps.jets.each_ref().map(|jet| jet.map(|row| row[q]));
+                    landings.push(Landing { flight, seen, jet, w: steps.w[q] });
+                }
+            }
+        }
+    }
+    flights.truncate(kept);
+}
