@@ -19,6 +19,9 @@ use crate::error::Error;
 use crate::knots::{Knots, MAX_DEGREE, MAX_MAGNITUDE, Side, copied};
 
 pub(crate) mod insertion;
+mod lockstep;
+
+pub(crate) use lockstep::{add_lanes, lane_basis, lane_points, lane_poles};
 
 /// Ends nearer than this, relative to the diagonal of the box, are the same point: a closed shape.
 pub const CLOSED_TOLERANCE: f64 = 1e-9;

@@ -8,7 +8,7 @@ mod lockstep;
 mod slopes;
 mod sums;
 
-pub use lockstep::{MOST_DEGREE, PatchJets, Row, SegmentJets, WIDTH};
+pub use lockstep::{PatchJets, SegmentJets};
 pub use slopes::Slopes;
 
 use crate::bezier::Bidegree;

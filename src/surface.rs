@@ -19,6 +19,7 @@ use crate::knots::{Knots, MAX_DEGREE, copied};
 
 mod edges;
 mod insertion;
+mod lockstep;
 mod partials;
 
 pub use edges::COLLAPSED_TOLERANCE;

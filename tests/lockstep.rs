@@ -19,7 +19,12 @@ const SIZES: [usize; 6] = [1, 2, 7, 8, 9, 128];
 
 /// What one query and what many give, with the same options.
 trait Both<const N: usize> {
-    fn one(&self, asked: Asked<N>, options: &QueryOptions, memory: &mut Workspace) -> [FootPoint; 2];
+    fn one(
+        &self,
+        asked: Asked<N>,
+        options: &QueryOptions,
+        memory: &mut Workspace,
+    ) -> [FootPoint; 2];
     fn many(
         &self,
         asked: &dyn Fn(usize) -> Asked<N>,
@@ -151,7 +156,8 @@ fn random_shapes_answer_alike_at_every_level_in_groups_of_any_size() {
         for k in 0..40 {
             let u = u0 + r.unit() * (u1 - u0);
             let on = shape.evaluate(u);
-            let at = if k % 9 == 5 { [f64::NAN; 3] } else { query(shape.bounding_box(), on, &mut r) };
+            let at =
+                if k % 9 == 5 { [f64::NAN; 3] } else { query(shape.bounding_box(), on, &mut r) };
             feet.push((if k % 9 == 4 { on } else { at }, [u]));
         }
         for (level, size) in Level::available().into_iter().flat_map(|l| SIZES.map(|s| (l, s))) {
@@ -164,7 +170,8 @@ fn random_shapes_answer_alike_at_every_level_in_groups_of_any_size() {
         for k in 0..40 {
             let (u, v) = (u0 + r.unit() * (u1 - u0), v0 + r.unit() * (v1 - v0));
             let on = shape.evaluate(u, v);
-            let at = if k % 9 == 5 { [f64::NAN; 3] } else { query(shape.bounding_box(), on, &mut r) };
+            let at =
+                if k % 9 == 5 { [f64::NAN; 3] } else { query(shape.bounding_box(), on, &mut r) };
             feet.push((if k % 9 == 4 { on } else { at }, [u, v]));
         }
         for (level, size) in Level::available().into_iter().zip([128, 7, 9]) {

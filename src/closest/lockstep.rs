@@ -10,13 +10,26 @@
 //! alone. The bits are those of single queries: each lane takes the same steps in the same order, and the decisions are the same.
 
 use crate::bounds::Vector;
-use crate::jet::{PatchJets, Row, SegmentJets, WIDTH};
+use crate::jet::{PatchJets, SegmentJets};
 use crate::refine::{Course, CurveSteps, SurfaceSteps, Worth};
+use crate::simd::{Row, row};
 
+use super::FootPoint;
 use super::settle::Landed;
 
 /// Jets after which a query goes on alone.
 pub const MOST_TAKEN: u32 = 12;
+
+/// A record of a place inside of a piece, before it says where.
+pub const NOWHERE: FootPoint = FootPoint {
+    u: 0.0,
+    v: 0.0,
+    point: [0.0; 3],
+    distance: 0.0,
+    lower_bound: 0.0,
+    flags: 0,
+    iterations: 0,
+};
 
 /// A query on its way over a piece.
 #[derive(Clone, Copy, Debug)]
@@ -107,16 +120,7 @@ impl<P: Copy> Flight<P> {
     }
 }
 
-/// Numbers of up to [`WIDTH`] items, lane by lane; of fewer, the first fills the rest.
-pub fn row<T>(items: &[T], number: impl Fn(&T) -> f64) -> Row {
-    let mut row = [number(&items[0]); WIDTH];
-    for (lane, item) in row.iter_mut().zip(items) {
-        *lane = number(item);
-    }
-    row
-}
-
-/// The same of vectors.
+/// Vectors of up to [`WIDTH`](crate::simd::WIDTH) items, lane by lane; of fewer, the first fills the rest.
 pub fn rows<T>(items: &[T], vector: impl Fn(&T) -> Vector) -> [Row; 3] {
     [0, 1, 2].map(|c| row(items, |item| vector(item)[c]))
 }

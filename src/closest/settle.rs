@@ -5,8 +5,8 @@ use super::proof::Site;
 use crate::bezier::Bidegree;
 use crate::bounds::{HALF_ULP, add, cross, dot, norm, scaled, sub};
 use crate::index::{CurveReach, Reach};
-use crate::jet::{Jet1, Jet2, Row, WIDTH};
-use crate::simd::{Kernel, Lanes, Level, Simd};
+use crate::jet::{Jet1, Jet2};
+use crate::simd::{Kernel, Lanes, Level, Row, Simd, WIDTH};
 
 /// What must be left of `1 - 2 a K`: less says too little of feet that tie.
 const LEAST_ROOM: f64 = 0.0625;

@@ -3,23 +3,14 @@
 //! Bit for bit the jets of [`BezierPatch::jet`](super::BezierPatch::jet) and [`BezierSegment::jet`](super::BezierSegment::jet).
 
 use super::Lane;
-use super::sums::{EXACT, bernstein, patch_sums, quotients, quotients_of_two, segment_sums};
+use super::sums::{bernstein, patch_sums, quotients, quotients_of_two, segment_sums};
 use crate::bezier::Bidegree;
-use crate::simd::{Kernel, Lanes, Level, Simd};
-
-/// Queries that are worked on together.
-pub const WIDTH: usize = 8;
-
-/// A number of each query.
-pub type Row = [f64; WIDTH];
-
-/// Highest degree that is worked on in lockstep.
-pub const MOST_DEGREE: usize = EXACT;
+use crate::simd::{Kernel, Lanes, Level, MOST_DEGREE, Row, Simd, WIDTH};
 
 /// Basis values and derivatives of each query.
-type Bases = [[Row; EXACT + 1]; 3];
+type Bases = [[Row; MOST_DEGREE + 1]; 3];
 
-const NO_BASES: Bases = [[[0.0; WIDTH]; EXACT + 1]; 3];
+const NO_BASES: Bases = [[[0.0; WIDTH]; MOST_DEGREE + 1]; 3];
 
 /// Sums over the poles, of each query.
 type Sums<const N: usize> = [[Lane; N]; WIDTH];

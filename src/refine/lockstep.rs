@@ -6,8 +6,8 @@
 use super::surface::{Products, State, determinant, is_better, solved, steepness, stride};
 use super::{NO_STEP, is_last};
 use crate::bounds::dot;
-use crate::jet::{PatchJets, Row, SegmentJets, WIDTH};
-use crate::simd::{Kernel, Lanes, Level, Simd};
+use crate::jet::{PatchJets, SegmentJets};
+use crate::simd::{Kernel, Lanes, Level, Row, Simd, WIDTH};
 
 /// Where an iteration goes from a place.
 #[derive(Clone, Copy, Debug, PartialEq)]

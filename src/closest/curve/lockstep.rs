@@ -1,16 +1,17 @@
 //! Many queries on a curve at once.
 
 use crate::bounds::{Vector, norm, sub};
-use crate::closest::lockstep::{CurveMemory, Fate, Flight, Landing, row, rows};
+use crate::closest::lockstep::{CurveMemory, Fate, Flight, Landing, NOWHERE, rows};
 use crate::closest::proof::Site;
 use crate::closest::settle::settled_on_curve;
 use crate::closest::{
-    FootPoint, QueryOptions, Scope, Workspace, bounded, flag, is_bad, mark_inversion,
+    FootPoint, QueryOptions, Scope, Workspace, bounded, distance, flag, is_bad, mark_inversion,
     rounding_floor,
 };
 use crate::index::{CurveIndex, CurveReach, IndexedCurve, position_error};
-use crate::jet::{Jet1, MOST_DEGREE, WIDTH};
+use crate::jet::Jet1;
 use crate::refine::{Method, is_inside};
+use crate::simd::{MOST_DEGREE, WIDTH, row};
 
 /// What is asked of a query, by its number.
 pub type Asked<'a> = &'a dyn Fn(usize) -> (Vector, Option<[f64; 1]>);
@@ -28,7 +29,13 @@ impl IndexedCurve {
     ) {
         let mut alone = std::mem::take(&mut workspace.lockstep.alone);
         alone.clear();
-        let flown = self.fly(asked, options, workspace.lockstep.curve.get_or_insert_default(), &mut alone, out);
+        let flown = self.fly(
+            asked,
+            options,
+            workspace.lockstep.curve.get_or_insert_default(),
+            &mut alone,
+            out,
+        );
         if !flown {
             alone.clear();
             alone.extend(0..out.len());
@@ -84,7 +91,10 @@ impl IndexedCurve {
         while !memory.flights.is_empty() {
             memory.landings.clear();
             advance(index, memory, alone);
-            self.settle(index, reach, memory, asked, options, alone, out);
+            for k in (0..memory.landings.len()).step_by(WIDTH) {
+                let end = memory.landings.len().min(k + WIDTH);
+                self.settle(index, reach, [k, end], memory, asked, options, alone, out);
+            }
         }
         true
     }
@@ -121,25 +131,29 @@ impl IndexedCurve {
         })
     }
 
-    /// Settles the landings and makes their records; those whose foot is to be looked at fly on.
+    /// Settles landings `first..end` and makes their records; those whose foot is to be looked at fly on.
     #[allow(clippy::too_many_arguments)]
     fn settle(
         &self,
         index: &CurveIndex,
         reach: &CurveReach,
+        [first, end]: [usize; 2],
         memory: &mut CurveMemory,
         asked: Asked,
         options: &QueryOptions,
         alone: &mut Vec<usize>,
         out: &mut [FootPoint],
     ) {
-        for landing in &memory.landings {
+        let landings = &memory.landings[first..end];
+        let parameter = |landing: &Landing<f64, 2>| {
+            index.segments[landing.flight.piece].u.global(landing.flight.at)
+        };
+        let at = row(landings, parameter);
+        let points = self.curve().evaluate_together(&at, index.grid.level);
+        for (q, landing) in landings.iter().enumerate() {
             let flight = landing.flight;
             let (query, hint) = asked(flight.number);
-            let floor = Self::floor(index, query);
-            let gap = options.accuracy(&index.frame).max(floor);
-            let allowed = gap.max(floor + rounding_floor(&index.frame, query, 0.0));
-            let gap = 0.5 * gap * index.frame.scale;
+            let [gap, allowed] = self.gaps(index, query, options);
             let site = Site { piece: flight.piece, at: [landing.seen, 0.0] };
             let [d, s] = landing.jet;
             let jet = Jet1 { d, s, ss: [0.0; 3], w: [landing.w, 0.0] };
@@ -153,19 +167,32 @@ impl IndexedCurve {
                 }
                 continue;
             };
-            let (first, last) = self.curve().domain();
-            let at = index.segments[flight.piece].u.global(flight.at).clamp(first, last);
-            let mut foot = self.foot_at(index, query, at, [first, last]);
+            let u = at[q];
+            let mut foot = if index.segments[flight.piece].u.holds(u) {
+                let point = points.map(|row| row[q]);
+                FootPoint { u, v: 0.0, point, distance: distance(query, point), ..NOWHERE }
+            } else {
+                let (first, last) = self.curve().domain();
+                self.foot_at(index, query, u, [first, last])
+            };
             bounded(&mut foot, bound.max(0.0), &index.frame, allowed);
             if foot.flags & flag::NOT_PROVEN != 0 {
                 alone.push(flight.number);
                 continue;
             }
             foot.iterations = flight.taken;
-            let finite = hint.is_some_and(|[u]| u.is_finite());
-            foot.flags |= if finite { flag::HINT_USED } else { 0 };
+            let is_hinted = hint.is_some_and(|[u]| u.is_finite());
+            foot.flags |= if is_hinted { flag::HINT_USED } else { 0 };
             out[flight.number] = foot;
         }
+    }
+
+    /// The gap that is left to a search, in the index's lengths, and the one that is allowed.
+    fn gaps(&self, index: &CurveIndex, query: Vector, options: &QueryOptions) -> [f64; 2] {
+        let floor = Self::floor(index, query);
+        let gap = options.accuracy(&index.frame).max(floor);
+        let allowed = gap.max(floor + rounding_floor(&index.frame, query, 0.0));
+        [0.5 * gap * index.frame.scale, allowed]
     }
 }
 

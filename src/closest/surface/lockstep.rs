@@ -1,15 +1,15 @@
 //! Many queries on a surface at once.
 
 use crate::bounds::{Vector, norm, sub};
-use crate::closest::lockstep::{Fate, Flight, Landing, SurfaceMemory, row, rows};
+use crate::closest::lockstep::{Fate, Flight, Landing, NOWHERE, SurfaceMemory, rows};
 use crate::closest::settle::settled_together;
 use crate::closest::{
-    FootPoint, QueryOptions, Scope, Workspace, bounded, flag, is_bad, mark_inversion,
+    FootPoint, QueryOptions, Scope, Workspace, bounded, distance, flag, is_bad, mark_inversion,
     rounding_floor,
 };
 use crate::index::{IndexedSurface, Reach, SurfaceIndex, position_error};
-use crate::jet::{MOST_DEGREE, WIDTH};
 use crate::refine::{Method, is_inside};
+use crate::simd::{MOST_DEGREE, WIDTH, row};
 
 /// What is asked of a query, by its number.
 pub type Asked<'a> = &'a dyn Fn(usize) -> (Vector, Option<[f64; 2]>);
@@ -27,7 +27,13 @@ impl IndexedSurface {
     ) {
         let mut alone = std::mem::take(&mut workspace.lockstep.alone);
         alone.clear();
-        let flown = self.fly(asked, options, workspace.lockstep.surface.get_or_insert_default(), &mut alone, out);
+        let flown = self.fly(
+            asked,
+            options,
+            workspace.lockstep.surface.get_or_insert_default(),
+            &mut alone,
+            out,
+        );
         if !flown {
             alone.clear();
             alone.extend(0..out.len());
@@ -147,13 +153,17 @@ impl IndexedSurface {
             (landed.bends[0][q], landed.bends[1][q]) = (bend[0], bend[1]);
         }
         let bounds = settled_together(reach, landed, index.degree, index.grid.level);
-        for (landing, bound) in landings.iter().zip(bounds) {
+        let mut at = [[0.0; WIDTH]; 2];
+        for q in 0..WIDTH {
+            let Landing { flight, .. } = landings[q.min(landings.len() - 1)];
+            let patch = &index.patches[flight.piece];
+            (at[0][q], at[1][q]) = (patch.u.global(flight.at[0]), patch.v.global(flight.at[1]));
+        }
+        let points = self.surface().evaluate_together(&at, index.grid.level);
+        for (q, (landing, bound)) in landings.iter().zip(bounds).enumerate() {
             let flight = landing.flight;
             let (query, hint) = asked(flight.number);
-            let floor = Self::floor(index, query);
-            let gap = options.accuracy(&index.frame).max(floor);
-            let allowed = gap.max(floor + rounding_floor(&index.frame, query, 0.0));
-            let gap = 0.5 * gap * index.frame.scale;
+            let [gap, allowed] = self.gaps(index, query, options);
             let Some([bound, _]) = bound.filter(|[bound, d]| *bound >= d - gap) else {
                 if landing.seen == flight.at {
                     alone.push(flight.number);
@@ -162,23 +172,32 @@ impl IndexedSurface {
                 }
                 continue;
             };
+            let (u, v) = (at[0][q], at[1][q]);
             let patch = &index.patches[flight.piece];
-            let range = self.surface().domain();
-            let at = [
-                patch.u.global(flight.at[0]).clamp(range[0], range[1]),
-                patch.v.global(flight.at[1]).clamp(range[2], range[3]),
-            ];
-            let mut foot = self.foot_at(index, query, at, range);
+            let mut foot = if patch.u.holds(u) && patch.v.holds(v) {
+                let point = points.map(|row| row[q]);
+                FootPoint { u, v, point, distance: distance(query, point), ..NOWHERE }
+            } else {
+                self.foot_at(index, query, [u, v], self.surface().domain())
+            };
             bounded(&mut foot, bound.max(0.0), &index.frame, allowed);
             if foot.flags & flag::NOT_PROVEN != 0 {
                 alone.push(flight.number);
                 continue;
             }
             foot.iterations = flight.taken;
-            let finite = hint.is_some_and(|at| at.iter().all(|x| x.is_finite()));
-            foot.flags |= if finite { flag::HINT_USED } else { 0 };
+            let is_hinted = hint.is_some_and(|at| at.iter().all(|x| x.is_finite()));
+            foot.flags |= if is_hinted { flag::HINT_USED } else { 0 };
             out[flight.number] = foot;
         }
+    }
+
+    /// The gap that is left to a search, in the index's lengths, and the one that is allowed.
+    fn gaps(&self, index: &SurfaceIndex, query: Vector, options: &QueryOptions) -> [f64; 2] {
+        let floor = Self::floor(index, query);
+        let gap = options.accuracy(&index.frame).max(floor);
+        let allowed = gap.max(floor + rounding_floor(&index.frame, query, 0.0));
+        [0.5 * gap * index.frame.scale, allowed]
     }
 }
 
