@@ -384,7 +384,8 @@ impl CurveSearch<'_> {
     /// A place that is likely near.
     fn near(&self) -> Option<(usize, f64)> {
         let level = self.index.grid.level;
-        let near = self.reach.and_then(|reach| reach.start(self.query, level));
+        let glance = || self.index.tree.glance(self.query);
+        let near = self.reach.and_then(|reach| reach.start(self.query, level, glance));
         near.or_else(|| self.guess())
     }
 
