@@ -228,6 +228,11 @@ fn work_off<W, R: Record>(
             (group..total).for_each(|k| records[at(k)] = R::unreached());
             return;
         }
+        if end - group == 1 {
+            records[at(group)] = work.one(first + at(group), memory);
+            progress.done.fetch_add(1, Ordering::Relaxed);
+            continue;
+        }
         let mut numbers = [0; GROUP];
         let numbers = &mut numbers[..end - group];
         for (number, k) in numbers.iter_mut().zip(group..) {

@@ -52,6 +52,26 @@ const ROUNDING: f64 = 1e-16;
 /// A parameter step below this share of the parameter (of the box, on surfaces) is rounding.
 const NO_STEP: f64 = 4e-16;
 
+/// Where an iteration begins, or goes on after others have begun it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Approach<P> {
+    /// Parameters.
+    pub at: P,
+    /// The size of the whole second-order step to this place, if it was one.
+    pub step: Option<f64>,
+    /// Jets taken so far, the one at this place left out: so many steps, each accepted at once.
+    pub taken: u32,
+    /// Whether the iteration ends here.
+    pub is_foot: bool,
+}
+
+impl<P> Approach<P> {
+    /// From a start.
+    pub fn new(at: P) -> Self {
+        Self { at, step: None, taken: 0, is_foot: false }
+    }
+}
+
 /// Where an iteration has ended.
 pub struct Landing<P, J> {
     /// The foot.

@@ -10,6 +10,7 @@ use super::certificate::{LEAST_C, squared_error};
 use super::elementary::raise;
 use super::line::{Given, Line, LineMemory, Source, search_line};
 use super::local::{LOCAL_FLAGS, WholeCurve, curve_start};
+use super::lockstep::{Begin, Left};
 use super::proof::{Proof, Site, Watch, note_loose};
 use super::settle::settled_on_curve;
 use super::within::{Within, nothing_within};
@@ -24,7 +25,7 @@ use crate::index::{
     CurveIndex, CurveReach, IndexedCurve, position_error, position_steps, product_steps,
 };
 use crate::jet::{Jet1, place};
-use crate::refine::{Landing, Method, Trace, foot_on_curve, land_on_curve};
+use crate::refine::{Approach, Landing, Method, Trace, foot_on_curve, land_on_curve};
 
 /// A tangent break smaller than this angle (radians) is rounding of the poles, not a crease.
 pub const LEAST_CREASE: f64 = 1e-6;
@@ -52,7 +53,10 @@ impl IndexedCurve {
         let hint = hint.filter(|u| u.is_finite());
         match options.scope {
             Scope::Local => self.local(index, query, hint, options, workspace, trace),
-            Scope::Global => self.global(index, query, hint, None, options, workspace, trace),
+            Scope::Global => {
+                let begin = Begin::at(hint);
+                self.global(index, query, begin, None, options, workspace, trace)
+            }
         }
     }
 
@@ -146,7 +150,7 @@ impl IndexedCurve {
         &self,
         index: &CurveIndex,
         query: Vector,
-        hint: Option<f64>,
+        begin: Begin<f64>,
         within: Option<Within>,
         options: &QueryOptions,
         workspace: &mut Workspace,
@@ -168,7 +172,7 @@ impl IndexedCurve {
             search.reach = None;
         }
         if !traced && let Some(mut foot) = self.elementary(index, query, &search, (gap, allowed)) {
-            foot.flags |= if hint.is_some() { flag::HINT_USED } else { 0 };
+            foot.flags |= if begin.is_hinted() { flag::HINT_USED } else { 0 };
             return foot;
         }
         let mut tell = |step: u32, site: Site, d: f64| {
@@ -181,10 +185,11 @@ impl IndexedCurve {
         if let Some(within) = within {
             proof.begin_within(within.distance * index.frame.scale, within.direction);
         }
-        if let Some(u) = hint {
-            search.start_at(u, &mut proof);
-        } else if within.is_none() {
-            search.start_near(&mut proof);
+        match begin {
+            Begin::Hint(u) => search.start_at(u, &mut proof),
+            Begin::On(left) => search.resume(left, &mut proof),
+            Begin::Anywhere if within.is_none() => search.start_near(&mut proof),
+            Begin::Anywhere => {}
         }
         search.walk(workspace, &mut proof);
         search.polish(&mut proof);
@@ -214,7 +219,7 @@ impl IndexedCurve {
             foot.flags |= search.ties(workspace, &mut proof);
             foot.iterations = proof.evaluations;
         }
-        if hint.is_some() {
+        if begin.is_hinted() {
             foot.flags |= flag::HINT_USED;
         }
         foot
@@ -381,6 +386,14 @@ impl CurveSearch<'_> {
         }
     }
 
+    /// Goes on where lanes have left off, as the search of one query does.
+    fn resume(&self, Left { piece, approach, is_hinted }: Left<f64>, proof: &mut Proof) {
+        self.iterate_on(piece, approach, [0.0, 1.0], proof);
+        if !is_hinted && proof.settled.is_none() {
+            self.polish(proof);
+        }
+    }
+
     /// A place that is likely near.
     fn near(&self) -> Option<(usize, f64)> {
         let level = self.index.grid.level;
@@ -400,15 +413,20 @@ impl CurveSearch<'_> {
     }
 
     fn iterate_from(&self, k: usize, start: f64, range: [f64; 2], proof: &mut Proof) {
+        self.iterate_on(k, Approach::new(start), range, proof);
+    }
+
+    fn iterate_on(&self, k: usize, from: Approach<f64>, range: [f64; 2], proof: &mut Proof) {
         let view = (self.index.net(k), sub(self.query, self.index.segments[k].center));
         let method = self.options.method;
         let Landing { at, mut seen, mut jet, taken } = match &mut proof.trace {
-            None => land_on_curve(&view, start, range, method),
+            None => land_on_curve(&view, from, range, method),
             Some(watch) => {
                 let mut tell = |step: u32, s: f64, _: f64, d: f64| {
                     watch(step, Site { piece: k, at: [s, 0.0] }, d);
                 };
-                let (at, jet, taken) = foot_on_curve(&view, start, range, method, Some(&mut tell));
+                let (at, jet, taken) =
+                    foot_on_curve(&view, from.at, range, method, Some(&mut tell));
                 Landing { at, seen: at, jet, taken }
             }
         };

@@ -11,7 +11,7 @@
 
 use crate::bounds::Vector;
 use crate::jet::{PatchJets, SegmentJets};
-use crate::refine::{Course, CurveSteps, SurfaceSteps, Worth};
+use crate::refine::{Approach, Course, CurveSteps, SurfaceSteps, Worth};
 use crate::simd::{Row, row};
 
 use super::FootPoint;
@@ -52,6 +52,42 @@ pub struct Flight<P> {
     pub taken: u32,
     /// Whether this is the foot, to be looked at.
     pub is_foot: bool,
+    /// Whether it began at a hint.
+    pub is_hinted: bool,
+}
+
+/// A query that lanes have left, and where.
+#[derive(Clone, Copy, Debug)]
+pub struct Left<P> {
+    /// Segment or patch.
+    pub piece: usize,
+    /// Where its iteration goes on.
+    pub approach: Approach<P>,
+    /// Whether it began at a hint.
+    pub is_hinted: bool,
+}
+
+/// Where a search begins.
+#[derive(Clone, Copy, Debug)]
+pub enum Begin<P> {
+    /// At a place that is likely near.
+    Anywhere,
+    /// At the caller's parameters.
+    Hint(P),
+    /// Where lanes have left off.
+    On(Left<P>),
+}
+
+impl<P> Begin<P> {
+    /// At a hint, if there is one.
+    pub fn at(hint: Option<P>) -> Self {
+        hint.map_or(Self::Anywhere, Self::Hint)
+    }
+
+    /// Whether the caller gave a hint.
+    pub fn is_hinted(&self) -> bool {
+        matches!(self, Self::Hint(_) | Self::On(Left { is_hinted: true, .. }))
+    }
 }
 
 /// A query that has come to its foot: the jet of the last place that was looked at is to settle it.
@@ -71,8 +107,6 @@ pub struct Landing<P, const N: usize> {
 pub struct Memory {
     pub surface: Option<Box<SurfaceMemory>>,
     pub curve: Option<Box<CurveMemory>>,
-    /// Queries that go on alone.
-    pub alone: Vec<usize>,
 }
 
 /// Room for queries on a surface.
@@ -80,6 +114,8 @@ pub struct Memory {
 pub struct SurfaceMemory {
     pub flights: Vec<Flight<[f64; 2]>>,
     pub landings: Vec<Landing<[f64; 2], 3>>,
+    /// Queries that go on alone, and from where if not from the start.
+    pub alone: Vec<(usize, Option<Left<[f64; 2]>>)>,
     pub jets: PatchJets,
     pub steps: SurfaceSteps,
     pub landed: Landed,
@@ -90,6 +126,8 @@ pub struct SurfaceMemory {
 pub struct CurveMemory {
     pub flights: Vec<Flight<f64>>,
     pub landings: Vec<Landing<f64, 2>>,
+    /// Queries that go on alone, and from where if not from the start.
+    pub alone: Vec<(usize, Option<Left<f64>>)>,
     pub jets: SegmentJets,
     pub steps: CurveSteps,
 }
@@ -102,6 +140,13 @@ pub enum Fate {
 }
 
 impl<P: Copy> Flight<P> {
+    /// Where the query goes on alone, from the place that was looked at last.
+    pub fn left(&self, is_foot: bool) -> (usize, Option<Left<P>>) {
+        let &Self { at, step, .. } = self;
+        let approach = Approach { at, step, taken: self.taken - 1, is_foot };
+        (self.number, Some(Left { piece: self.piece, approach, is_hinted: self.is_hinted }))
+    }
+
     /// Takes the course from its place, which is worth `worth`.
     pub fn follow(&mut self, course: Course<P>, worth: Worth) -> Fate {
         match course {

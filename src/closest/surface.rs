@@ -8,6 +8,7 @@ mod ties;
 
 use super::elementary::raise;
 use super::local::{LOCAL_FLAGS, WholeSurface, surface_start};
+use super::lockstep::{Begin, Left};
 use super::patch::{Far, PatchMemory, Sheet, search_patch};
 use super::proof::{Proof, Site, Watch, note_loose};
 use super::settle::settled;
@@ -21,7 +22,7 @@ use crate::bounds::{HALF_ULP, Vector, add, dot, norm, scaled, sub};
 use crate::error::Error;
 use crate::index::{IndexedSurface, Reach, Span, SurfaceIndex, position_error, position_steps};
 use crate::jet::{Jet2, place};
-use crate::refine::{Landing, Method, Trace, foot_on_surface, land_on_surface};
+use crate::refine::{Approach, Landing, Method, Trace, foot_on_surface, land_on_surface};
 
 /// Boxes that one patch may take before the others have had their turn: a difficult patch that does not even
 /// hold the foot must not use up the budget. One query in a thousand gets here.
@@ -51,7 +52,10 @@ impl IndexedSurface {
         let hint = hint.filter(|at| at.iter().all(|x| x.is_finite()));
         match options.scope {
             Scope::Local => self.local(index, query, hint, options, workspace, trace),
-            Scope::Global => self.global(index, query, hint, None, options, workspace, trace),
+            Scope::Global => {
+                let begin = Begin::at(hint);
+                self.global(index, query, begin, None, options, workspace, trace)
+            }
         }
     }
 
@@ -154,7 +158,7 @@ impl IndexedSurface {
         &self,
         index: &SurfaceIndex,
         query: Vector,
-        hint: Option<[f64; 2]>,
+        begin: Begin<[f64; 2]>,
         within: Option<Within>,
         options: &QueryOptions,
         workspace: &mut Workspace,
@@ -173,7 +177,7 @@ impl IndexedSurface {
             search.reach = None;
         }
         if !traced && let Some(mut foot) = self.elementary(index, query, &search, (gap, allowed)) {
-            foot.flags |= if hint.is_some() { flag::HINT_USED } else { 0 };
+            foot.flags |= if begin.is_hinted() { flag::HINT_USED } else { 0 };
             return foot;
         }
         let mut tell = |step: u32, site: Site, d: f64| {
@@ -187,10 +191,11 @@ impl IndexedSurface {
         if let Some(within) = within {
             proof.begin_within(within.distance * index.frame.scale, within.direction);
         }
-        if let Some(at) = hint {
-            search.start_at(at, &mut proof);
-        } else if within.is_none() {
-            search.start_near(&mut proof);
+        match begin {
+            Begin::Hint(at) => search.start_at(at, &mut proof),
+            Begin::On(left) => search.resume(left, &mut proof),
+            Begin::Anywhere if within.is_none() => search.start_near(&mut proof),
+            Begin::Anywhere => {}
         }
         search.walk(workspace, &mut proof);
         search.polish(&mut proof);
@@ -222,7 +227,7 @@ impl IndexedSurface {
             foot.flags |= search.ties(workspace, &mut proof);
             foot.iterations = proof.evaluations;
         }
-        if hint.is_some() {
+        if begin.is_hinted() {
             foot.flags |= flag::HINT_USED;
         }
         foot
@@ -336,6 +341,14 @@ impl SurfaceSearch<'_> {
         }
     }
 
+    /// Goes on where lanes have left off, as the search of one query does.
+    fn resume(&self, Left { piece, approach, is_hinted }: Left<[f64; 2]>, proof: &mut Proof) {
+        self.iterate_on(piece, approach, [0.0, 1.0, 0.0, 1.0], Method::Auto, proof);
+        if !is_hinted && proof.settled.is_none() {
+            self.cross(proof);
+        }
+    }
+
     /// A place that is likely near.
     fn near(&self) -> Option<(usize, [f64; 2])> {
         let level = self.index.grid.level;
@@ -436,15 +449,26 @@ impl SurfaceSearch<'_> {
         method: Method,
         proof: &mut Proof,
     ) {
+        self.iterate_on(k, Approach::new(start), range, method, proof);
+    }
+
+    fn iterate_on(
+        &self,
+        k: usize,
+        from: Approach<[f64; 2]>,
+        range: [f64; 4],
+        method: Method,
+        proof: &mut Proof,
+    ) {
         let view = (self.index.net(k), sub(self.query, self.index.patches[k].center));
         let Landing { at, mut seen, mut jet, taken } = match &mut proof.trace {
-            None => land_on_surface(&view, start, range, method),
+            None => land_on_surface(&view, from, range, method),
             Some(watch) => {
                 let mut tell = |step: u32, s: f64, t: f64, d: f64| {
                     watch(step, Site { piece: k, at: [s, t] }, d);
                 };
                 let (at, jet, taken) =
-                    foot_on_surface(&view, start, range, method, Some(&mut tell));
+                    foot_on_surface(&view, from.at, range, method, Some(&mut tell));
                 Landing { at, seen: at, jet, taken }
             }
         };

@@ -1,6 +1,6 @@
 //! Foot points on surfaces.
 
-use super::{Landing, Method, NO_STEP, Trace, arc_ratio, is_last};
+use super::{Approach, Landing, Method, NO_STEP, Trace, arc_ratio, is_last};
 use crate::bounds::{Vector, cross, dot};
 use crate::jet::{BezierPatch, Jet2};
 use crate::simd::Lanes;
@@ -93,35 +93,38 @@ pub fn foot_on_surface(
     method: Method,
     trace: Option<Trace>,
 ) -> ([f64; 2], Jet2, u32) {
-    let Landing { at, jet, taken, .. } = iterate(surface, start, range, method, trace, true);
+    let from = Approach::new(start);
+    let Landing { at, jet, taken, .. } = iterate(surface, from, range, method, trace, true);
     (at, jet, taken)
 }
 
-/// As [`foot_on_surface`], but the foot need not have been looked at: a jet less.
+/// As [`foot_on_surface`], but the foot need not have been looked at: a jet less. An iteration that goes on takes the same steps as
+/// the whole one.
 pub fn land_on_surface(
     surface: &impl SurfaceJets,
-    start: [f64; 2],
+    from: Approach<[f64; 2]>,
     range: [f64; 4],
     method: Method,
 ) -> Landing<[f64; 2], Jet2> {
-    iterate(surface, start, range, method, None, false)
+    iterate(surface, from, range, method, None, false)
 }
 
 fn iterate(
     surface: &impl SurfaceJets,
-    start: [f64; 2],
+    from: Approach<[f64; 2]>,
     range: [f64; 4],
     method: Method,
     mut trace: Option<Trace>,
     look: bool,
 ) -> Landing<[f64; 2], Jet2> {
-    let mut before = None;
-    let mut state = State { at: start, range };
+    let mut before = from.step;
+    let mut state = State { at: from.at, range };
     state.at = state.moved([0.0; 2], 0.0);
     let mut place = Place::new(surface.jet(state.at[0], state.at[1]));
-    let mut taken = 1;
+    let mut taken = from.taken + 1;
     tell(&mut trace, surface, 0, state.at, &place);
-    for count in 1..=method.steps() {
+    let steps = if from.is_foot { 0 } else { method.steps() };
+    for count in taken..=steps {
         let held = state.held(place.g);
         let Some((step, second_order)) = bounded_step(&state, &place, method) else { break };
         let whole = state.moved(step, 1.0);

@@ -1,7 +1,7 @@
 //! Many queries on a curve at once.
 
 use crate::bounds::{Vector, norm, sub};
-use crate::closest::lockstep::{CurveMemory, Fate, Flight, Landing, NOWHERE, rows};
+use crate::closest::lockstep::{Begin, CurveMemory, Fate, Flight, Landing, Left, NOWHERE, rows};
 use crate::closest::proof::Site;
 use crate::closest::settle::settled_on_curve;
 use crate::closest::{
@@ -27,24 +27,22 @@ impl IndexedCurve {
         workspace: &mut Workspace,
         out: &mut [FootPoint],
     ) {
-        let mut alone = std::mem::take(&mut workspace.lockstep.alone);
+        let memory = workspace.lockstep.curve.get_or_insert_default();
+        let mut alone = std::mem::take(&mut memory.alone);
         alone.clear();
-        let flown = self.fly(
-            asked,
-            options,
-            workspace.lockstep.curve.get_or_insert_default(),
-            &mut alone,
-            out,
-        );
-        if !flown {
-            alone.clear();
-            alone.extend(0..out.len());
+        if !self.fly(asked, options, memory, &mut alone, out) {
+            alone.extend((0..out.len()).map(|number| (number, None)));
         }
-        for &number in &alone {
+        for &(number, left) in &alone {
             let (query, hint) = asked(number);
-            out[number] = self.closest(query, hint.map(|[u]| u), options, workspace, None);
+            out[number] = match (left, self.index(&mut || false)) {
+                (Some(left), Ok(index)) => {
+                    self.global(index, query, Begin::On(left), None, options, workspace, None)
+                }
+                _ => self.closest(query, hint.map(|[u]| u), options, workspace, None),
+            };
         }
-        workspace.lockstep.alone = alone;
+        workspace.lockstep.curve.get_or_insert_default().alone = alone;
     }
 
     /// As [`Self::invert`] for each, see [`Self::closest_together`].
@@ -70,7 +68,7 @@ impl IndexedCurve {
         asked: Asked,
         options: &QueryOptions,
         memory: &mut CurveMemory,
-        alone: &mut Vec<usize>,
+        alone: &mut Vec<(usize, Option<Left<f64>>)>,
         out: &mut [FootPoint],
     ) -> bool {
         let Ok(index) = self.index(&mut || false) else { return false };
@@ -85,7 +83,7 @@ impl IndexedCurve {
         for number in 0..out.len() {
             match self.launch(index, asked(number), options, number) {
                 Some(flight) => memory.flights.push(flight),
-                None => alone.push(number),
+                None => alone.push((number, None)),
             }
         }
         while !memory.flights.is_empty() {
@@ -128,6 +126,7 @@ impl IndexedCurve {
             step: None,
             taken: 0,
             is_foot: false,
+            is_hinted: hint.is_some(),
         })
     }
 
@@ -141,7 +140,7 @@ impl IndexedCurve {
         memory: &mut CurveMemory,
         asked: Asked,
         options: &QueryOptions,
-        alone: &mut Vec<usize>,
+        alone: &mut Vec<(usize, Option<Left<f64>>)>,
         out: &mut [FootPoint],
     ) {
         let landings = &memory.landings[first..end];
@@ -152,7 +151,7 @@ impl IndexedCurve {
         let points = self.curve().evaluate_together(&at, index.grid.level);
         for (q, landing) in landings.iter().enumerate() {
             let flight = landing.flight;
-            let (query, hint) = asked(flight.number);
+            let (query, _) = asked(flight.number);
             let [gap, allowed] = self.gaps(index, query, options);
             let site = Site { piece: flight.piece, at: [landing.seen, 0.0] };
             let [d, s] = landing.jet;
@@ -161,9 +160,9 @@ impl IndexedCurve {
                 settled_on_curve(Some(reach), site, &jet, flight.position, index.degree(), gap);
             let Some(bound) = bound else {
                 if landing.seen == flight.at {
-                    alone.push(flight.number);
+                    alone.push(flight.left(true));
                 } else {
-                    memory.flights.push(Flight { is_foot: true, ..flight });
+                    memory.flights.push(Flight { is_foot: true, worth: None, ..flight });
                 }
                 continue;
             };
@@ -177,12 +176,11 @@ impl IndexedCurve {
             };
             bounded(&mut foot, bound.max(0.0), &index.frame, allowed);
             if foot.flags & flag::NOT_PROVEN != 0 {
-                alone.push(flight.number);
+                alone.push((flight.number, None));
                 continue;
             }
             foot.iterations = flight.taken;
-            let is_hinted = hint.is_some_and(|[u]| u.is_finite());
-            foot.flags |= if is_hinted { flag::HINT_USED } else { 0 };
+            foot.flags |= if flight.is_hinted { flag::HINT_USED } else { 0 };
             out[flight.number] = foot;
         }
     }
@@ -197,8 +195,12 @@ impl IndexedCurve {
 }
 
 /// One step of every query on its way.
-fn advance(index: &CurveIndex, memory: &mut CurveMemory, alone: &mut Vec<usize>) {
-    let CurveMemory { flights, landings, jets, steps } = memory;
+fn advance(
+    index: &CurveIndex,
+    memory: &mut CurveMemory,
+    alone: &mut Vec<(usize, Option<Left<f64>>)>,
+) {
+    let CurveMemory { flights, landings, jets, steps, .. } = memory;
     let level = index.grid.level;
     let mut kept = 0;
     for first in (0..flights.len()).step_by(WIDTH) {
@@ -215,15 +217,17 @@ fn advance(index: &CurveIndex, memory: &mut CurveMemory, alone: &mut Vec<usize>)
             let mut flight = flights[first + q];
             let seen = flight.at;
             flight.taken += 1;
+            if flight.worth.is_some_and(|before| !steps.is_better(q, before)) {
+                alone.push((flight.number, None));
+                continue;
+            }
             let fate = if flight.is_foot {
                 Fate::Landed
-            } else if flight.worth.is_some_and(|before| !steps.is_better(q, before)) {
-                Fate::Alone
             } else {
                 flight.follow(steps.course(q, seen, flight.step), steps.worth(q))
             };
             match fate {
-                Fate::Alone => alone.push(flight.number),
+                Fate::Alone => alone.push(flight.left(false)),
                 Fate::Flies => {
                     flights[kept] = flight;
                     kept += 1;

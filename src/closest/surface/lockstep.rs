@@ -1,7 +1,7 @@
 //! Many queries on a surface at once.
 
 use crate::bounds::{Vector, norm, sub};
-use crate::closest::lockstep::{Fate, Flight, Landing, NOWHERE, SurfaceMemory, rows};
+use crate::closest::lockstep::{Begin, Fate, Flight, Landing, Left, NOWHERE, SurfaceMemory, rows};
 use crate::closest::settle::settled_together;
 use crate::closest::{
     FootPoint, QueryOptions, Scope, Workspace, bounded, distance, flag, is_bad, mark_inversion,
@@ -25,24 +25,22 @@ impl IndexedSurface {
         workspace: &mut Workspace,
         out: &mut [FootPoint],
     ) {
-        let mut alone = std::mem::take(&mut workspace.lockstep.alone);
+        let memory = workspace.lockstep.surface.get_or_insert_default();
+        let mut alone = std::mem::take(&mut memory.alone);
         alone.clear();
-        let flown = self.fly(
-            asked,
-            options,
-            workspace.lockstep.surface.get_or_insert_default(),
-            &mut alone,
-            out,
-        );
-        if !flown {
-            alone.clear();
-            alone.extend(0..out.len());
+        if !self.fly(asked, options, memory, &mut alone, out) {
+            alone.extend((0..out.len()).map(|number| (number, None)));
         }
-        for &number in &alone {
+        for &(number, left) in &alone {
             let (query, hint) = asked(number);
-            out[number] = self.closest(query, hint, options, workspace, None);
+            out[number] = match (left, self.index(&mut || false)) {
+                (Some(left), Ok(index)) => {
+                    self.global(index, query, Begin::On(left), None, options, workspace, None)
+                }
+                _ => self.closest(query, hint, options, workspace, None),
+            };
         }
-        workspace.lockstep.alone = alone;
+        workspace.lockstep.surface.get_or_insert_default().alone = alone;
     }
 
     /// As [`Self::invert`] for each, see [`Self::closest_together`].
@@ -68,7 +66,7 @@ impl IndexedSurface {
         asked: Asked,
         options: &QueryOptions,
         memory: &mut SurfaceMemory,
-        alone: &mut Vec<usize>,
+        alone: &mut Vec<(usize, Option<Left<[f64; 2]>>)>,
         out: &mut [FootPoint],
     ) -> bool {
         let Ok(index) = self.index(&mut || false) else { return false };
@@ -84,7 +82,7 @@ impl IndexedSurface {
         for number in 0..out.len() {
             match self.launch(index, asked(number), options, number) {
                 Some(flight) => memory.flights.push(flight),
-                None => alone.push(number),
+                None => alone.push((number, None)),
             }
         }
         while !memory.flights.is_empty() {
@@ -127,6 +125,7 @@ impl IndexedSurface {
             step: None,
             taken: 0,
             is_foot: false,
+            is_hinted: hint.is_some(),
         })
     }
 
@@ -140,7 +139,7 @@ impl IndexedSurface {
         memory: &mut SurfaceMemory,
         asked: Asked,
         options: &QueryOptions,
-        alone: &mut Vec<usize>,
+        alone: &mut Vec<(usize, Option<Left<[f64; 2]>>)>,
         out: &mut [FootPoint],
     ) {
         let landings = &memory.landings[first..end];
@@ -162,13 +161,13 @@ impl IndexedSurface {
         let points = self.surface().evaluate_together(&at, index.grid.level);
         for (q, (landing, bound)) in landings.iter().zip(bounds).enumerate() {
             let flight = landing.flight;
-            let (query, hint) = asked(flight.number);
+            let (query, _) = asked(flight.number);
             let [gap, allowed] = self.gaps(index, query, options);
             let Some([bound, _]) = bound.filter(|[bound, d]| *bound >= d - gap) else {
                 if landing.seen == flight.at {
-                    alone.push(flight.number);
+                    alone.push(flight.left(true));
                 } else {
-                    memory.flights.push(Flight { is_foot: true, ..flight });
+                    memory.flights.push(Flight { is_foot: true, worth: None, ..flight });
                 }
                 continue;
             };
@@ -182,12 +181,11 @@ impl IndexedSurface {
             };
             bounded(&mut foot, bound.max(0.0), &index.frame, allowed);
             if foot.flags & flag::NOT_PROVEN != 0 {
-                alone.push(flight.number);
+                alone.push((flight.number, None));
                 continue;
             }
             foot.iterations = flight.taken;
-            let is_hinted = hint.is_some_and(|at| at.iter().all(|x| x.is_finite()));
-            foot.flags |= if is_hinted { flag::HINT_USED } else { 0 };
+            foot.flags |= if flight.is_hinted { flag::HINT_USED } else { 0 };
             out[flight.number] = foot;
         }
     }
@@ -202,7 +200,11 @@ impl IndexedSurface {
 }
 
 /// One step of every query on its way.
-fn advance(index: &SurfaceIndex, memory: &mut SurfaceMemory, alone: &mut Vec<usize>) {
+fn advance(
+    index: &SurfaceIndex,
+    memory: &mut SurfaceMemory,
+    alone: &mut Vec<(usize, Option<Left<[f64; 2]>>)>,
+) {
     let SurfaceMemory { flights, landings, jets, steps, .. } = memory;
     let level = index.grid.level;
     let mut kept = 0;
@@ -220,15 +222,17 @@ fn advance(index: &SurfaceIndex, memory: &mut SurfaceMemory, alone: &mut Vec<usi
             let mut flight = flights[first + q];
             let seen = flight.at;
             flight.taken += 1;
+            if flight.worth.is_some_and(|before| !steps.is_better(q, before)) {
+                alone.push((flight.number, None));
+                continue;
+            }
             let fate = if flight.is_foot {
                 Fate::Landed
-            } else if flight.worth.is_some_and(|before| !steps.is_better(q, before)) {
-                Fate::Alone
             } else {
                 flight.follow(steps.course(q, seen, flight.step), steps.worth(q))
             };
             match fate {
-                Fate::Alone => alone.push(flight.number),
+                Fate::Alone => alone.push(flight.left(false)),
                 Fate::Flies => {
                     flights[kept] = flight;
                     kept += 1;
