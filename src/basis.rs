@@ -28,7 +28,7 @@ const STRETCH: f64 = 18_446_744_073_709_551_616.0;
 /// of them is the only one that is not zero.
 pub fn values(knots: &Knots, span: usize, u: f64, out: &mut [f64]) {
     let degree = knots.degree();
-    let around = &knots.values()[span + 1 - degree..=span + degree];
+    let around = &knots.values()[span + 1 - degree..span + 1 + degree];
     match degree {
         1 => grow::<1>(around, u, out),
         2 => grow::<2>(around, u, out),
@@ -56,7 +56,7 @@ pub fn values_around<V: Lanes<N>, const N: usize>(
 /// The whole triangle for a degree that the compiler knows: the same steps without loops.
 #[inline(always)]
 fn grow<const DEGREE: usize>(around: &[f64], u: f64, out: &mut [f64]) {
-    let (around, out) = (&around[..2 * DEGREE], &mut out[..=DEGREE]);
+    let (around, out) = (&around[..2 * DEGREE], &mut out[..DEGREE + 1]);
     out[0] = 1.0;
     for grown in 1..=DEGREE {
         raise(around, DEGREE, grown, u, out);
@@ -69,7 +69,7 @@ fn grow<const DEGREE: usize>(around: &[f64], u: f64, out: &mut [f64]) {
 /// same bits as [`values`]. Rows above the degree are zero.
 pub fn derivatives(knots: &Knots, span: usize, u: f64, count: usize, out: &mut [f64]) {
     let degree = knots.degree();
-    let around = &knots.values()[span + 1 - degree..=span + degree];
+    let around = &knots.values()[span + 1 - degree..span + 1 + degree];
     let width = degree + 1;
     let (row, higher) = out[..(count + 1) * width].split_at_mut(width);
     row[0] = 1.0;

@@ -157,8 +157,9 @@ pub fn basis<V: Lanes<W>, const W: usize, const LEN: usize>(
 /// The Bernstein basis of degree `n` from rising and falling powers.
 #[inline(always)]
 fn row<V: Lanes<W>, const W: usize>(n: usize, up: &[V], down: &[V], out: &mut [V]) {
-    let (binomial, up, down, out) = (&BINOMIAL[n][..=n], &up[..=n], &down[..=n], &mut out[..=n]);
-    for i in 0..=n {
+    let (binomial, up, down, out) =
+        (&BINOMIAL[n][..n + 1], &up[..n + 1], &down[..n + 1], &mut out[..n + 1]);
+    for i in 0..n + 1 {
         out[i] = V::splat(binomial[i]) * up[i] * down[i];
     }
 }

@@ -10,7 +10,7 @@ use crate::closest::{
 };
 use crate::index::{CurveIndex, CurveReach, IndexedCurve, position_error};
 use crate::jet::Jet1;
-use crate::refine::{Method, is_inside};
+use crate::refine::{Approach, Method, is_inside};
 use crate::simd::{MOST_DEGREE, WIDTH, row};
 
 /// What is asked of a query, by its number.
@@ -82,8 +82,8 @@ impl IndexedCurve {
         memory.flights.clear();
         for number in 0..out.len() {
             match self.launch(index, asked(number), options, number) {
-                Some(flight) => memory.flights.push(flight),
-                None => alone.push((number, None)),
+                Ok(flight) => memory.flights.push(flight),
+                Err(left) => alone.push((number, left)),
             }
         }
         while !memory.flights.is_empty() {
@@ -97,26 +97,32 @@ impl IndexedCurve {
         true
     }
 
-    /// A query at its start.
+    /// A query at its start; or where it begins alone, when that is not inside of a piece.
     fn launch(
         &self,
         index: &CurveIndex,
         (query, hint): (Vector, Option<[f64; 1]>),
         options: &QueryOptions,
         number: usize,
-    ) -> Option<Flight<f64>> {
+    ) -> Result<Flight<f64>, Option<Left<f64>>> {
         if is_bad(query) {
-            return None;
+            return Err(None);
         }
         let search = self.search(index, query, options, Self::floor(index, query));
         let hint = hint.map(|[u]| u).filter(|u| u.is_finite());
-        let (piece, at) = hint.map(|at| search.place_of(at)).or_else(|| search.near())?;
+        let place = hint.map(|at| search.place_of(at)).or_else(|| search.near());
+        let (piece, at) = place.ok_or(None)?;
+        let is_hinted = hint.is_some();
+        if !is_inside(at) {
+            let approach = Approach::new(at);
+            return Err(Some(Left { piece, approach, is_hinted }));
+        }
         let segment = &index.segments[piece];
         let q = sub(search.query, segment.center);
         let sizes = [norm(q), norm(search.query)];
         let position =
             position_error(search.steps, index.is_rational(), segment.radius, sizes[0], sizes[1]);
-        is_inside(at).then_some(Flight {
+        Ok(Flight {
             number,
             piece,
             at,
@@ -126,7 +132,7 @@ impl IndexedCurve {
             step: None,
             taken: 0,
             is_foot: false,
-            is_hinted: hint.is_some(),
+            is_hinted,
         })
     }
 

@@ -8,7 +8,7 @@ use crate::closest::{
     rounding_floor,
 };
 use crate::index::{IndexedSurface, Reach, SurfaceIndex, position_error};
-use crate::refine::{Method, is_inside};
+use crate::refine::{Approach, Method, is_inside};
 use crate::simd::{MOST_DEGREE, WIDTH, row};
 
 /// What is asked of a query, by its number.
@@ -81,8 +81,8 @@ impl IndexedSurface {
         memory.flights.clear();
         for number in 0..out.len() {
             match self.launch(index, asked(number), options, number) {
-                Some(flight) => memory.flights.push(flight),
-                None => alone.push((number, None)),
+                Ok(flight) => memory.flights.push(flight),
+                Err(left) => alone.push((number, left)),
             }
         }
         while !memory.flights.is_empty() {
@@ -96,26 +96,32 @@ impl IndexedSurface {
         true
     }
 
-    /// A query at its start.
+    /// A query at its start; or where it begins alone, when that is not inside of a piece.
     fn launch(
         &self,
         index: &SurfaceIndex,
         (query, hint): (Vector, Option<[f64; 2]>),
         options: &QueryOptions,
         number: usize,
-    ) -> Option<Flight<[f64; 2]>> {
+    ) -> Result<Flight<[f64; 2]>, Option<Left<[f64; 2]>>> {
         if is_bad(query) {
-            return None;
+            return Err(None);
         }
         let search = self.search(index, query, options, Self::floor(index, query));
         let hint = hint.filter(|at| at.iter().all(|x| x.is_finite()));
-        let (piece, at) = hint.map(|at| search.place_of(at)).or_else(|| search.near())?;
+        let place = hint.map(|at| search.place_of(at)).or_else(|| search.near());
+        let (piece, at) = place.ok_or(None)?;
+        let is_hinted = hint.is_some();
+        if !at.iter().all(|&x| is_inside(x)) {
+            let approach = Approach::new(at);
+            return Err(Some(Left { piece, approach, is_hinted }));
+        }
         let patch = &index.patches[piece];
         let q = sub(search.query, patch.center);
         let sizes = [norm(q), norm(search.query)];
         let position =
             position_error(search.steps, index.rational, patch.radius, sizes[0], sizes[1]);
-        at.iter().all(|&x| is_inside(x)).then_some(Flight {
+        Ok(Flight {
             number,
             piece,
             at,
@@ -125,7 +131,7 @@ impl IndexedSurface {
             step: None,
             taken: 0,
             is_foot: false,
-            is_hinted: hint.is_some(),
+            is_hinted,
         })
     }
 
