@@ -31,7 +31,10 @@ impl IndexedCurve {
         let mut alone = std::mem::take(&mut memory.alone);
         alone.clear();
         if !self.fly(asked, options, memory, &mut alone, out) {
-            alone.extend((0..out.len()).map(|number| (number, None)));
+            for (number, foot) in out.iter_mut().enumerate() {
+                let (query, hint) = asked(number);
+                *foot = self.closest(query, hint.map(|[u]| u), options, workspace, None);
+            }
         }
         for &(number, left) in &alone {
             let (query, hint) = asked(number);
