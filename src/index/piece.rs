@@ -159,9 +159,11 @@ pub fn parts_for(ratio: f64) -> usize {
 }
 
 /// The power of two that balances weights whose ends differ by `ratio` (last over first) in degree `degree`.
+///
+/// The nearest one: weights of 1 and 0.98 are balanced as they are.
 pub fn balance_for(ratio: f64, degree: usize) -> f64 {
     let exponent = |x: f64| ((x.to_bits() >> 52) & 0x7ff) as i64 - 1023;
-    let steps = exponent(ratio).clamp(-600, 600);
+    let steps = exponent(ratio * std::f64::consts::SQRT_2).clamp(-600, 600);
     let each = (steps.abs() + degree as i64 / 2) / degree as i64;
     let each = (each.min(900 / degree as i64) as i32) * steps.signum() as i32;
     // The map's factor undoes the growth.
