@@ -15,14 +15,12 @@
 //!   l / t^3 = n1 x_ss + n2 y_ss + n3 z_ss      m / t^2 = n1 S_st.x + n2 S_st.y + n3 (2 z_s + t z_st)
 //! ```
 
-use super::cell::{Known, Shape};
+use super::cell::Known;
 use super::doubled::{Doubled, UNIT};
 use super::interval::Interval;
-use super::model::{Model, Table};
-use super::net::{Exact, ExactNet, Nets};
-use super::polynomial::Polynomial;
-use super::request::{Quantity, known};
-use super::slope::Slope;
+use super::model::{Model, Projection, Table};
+use super::net::{Exact, ExactNet, Nets, Rounded};
+use super::request::{Quantity, of_entries, sharper};
 use crate::bezier::{Bidegree, cut};
 use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, scaled};
 use crate::index::SurfaceIndex;
@@ -34,8 +32,11 @@ const ROUNDING: f64 = 2e-13;
 /// some times that.
 const WRITTEN: f64 = 2e-14;
 
+/// Boxes nearer to a side than this have a size of their own: the coefficients of the others hardly count there.
+const BESIDE: f64 = 1.0 / 64.0;
+
 /// A polynomial and its derivatives by s, t, ss, st and tt.
-struct Jet([Polynomial; 6]);
+struct Jet([Rounded; 6]);
 
 impl Jet {
     fn new(f: &Exact) -> Self {
@@ -74,6 +75,7 @@ pub(super) struct Room {
     ends: [[f64; 2]; 2],
     /// By direction and degree; empty: not made yet.
     cuts: [Vec<Vec<f64>>; 2],
+    projections: [Vec<Projection>; 2],
     half: Vec<f64>,
     cut: Vec<f64>,
 }
@@ -114,25 +116,58 @@ impl Room {
         let cuts = &mut self.cuts[direction];
         if cuts.len() <= n {
             cuts.resize(n + 1, Vec::new());
+            self.projections[direction].resize(n + 1, Vec::new());
         }
         if !cuts[n].is_empty() {
             return;
         }
         // The cut of the unit vectors, all at once, is its transpose.
         let (width, [a, b]) = (n + 1, self.ends[direction]);
-        let mut all: Vec<f64> =
-            (0..width * width).map(|k| f64::from(u8::from(k % (width + 1) == 0))).collect();
+        let mut all = std::mem::take(&mut self.half);
+        all.clear();
+        all.extend((0..width * width).map(|k| f64::from(u8::from(k % (width + 1) == 0))));
         cut(&mut all, n, width, width, a, b);
         cuts[n].extend((0..width * width).map(|k| all[k % width * width + k / width]));
+        self.half = all;
+        if let Some(table) = self.tables[n].as_ref().filter(|table| table.is_exact()) {
+            table.projection(&cuts[n], &mut self.projections[direction][n]);
+        }
     }
 
-    /// Rounding: entries of a matrix are off by 8 half ulps a degree, the sum by one a term.
-    fn model(&mut self, f: &Polynomial) -> Model {
+    /// The greatest sum of absolute coefficients times weights on the present box: what rounding is relative to.
+    fn size(&self, f: &Rounded) -> f64 {
+        let most = |sizes: &[f64], by: &[f64]| {
+            let width = sizes.len();
+            let sum = |k: usize| (0..width).map(|i| sizes[i] * by[i * width + k]).sum::<f64>();
+            (0..width).map(sum).fold(0.0, f64::max)
+        };
+        let Bidegree { s: m, t: n } = f.degree;
+        most(&f.rows, &self.cuts[0][m]).min(most(&f.columns, &self.cuts[1][n]))
+    }
+
+    /// Rounding: entries of a matrix are off by 8 half ulps a degree of themselves, the sum by one a term; the coefficients by one.
+    fn model(&mut self, f: &Rounded) -> Model {
         let Bidegree { s: m, t: n } = f.degree;
         self.table(m);
         self.table(n);
         self.matrix(0, m);
         self.matrix(1, n);
+        let is_wide = |[a, b]: [f64; 2]| a < 1.0 - BESIDE && b > BESIDE;
+        let size = if self.ends.iter().all(|&ends| is_wide(ends)) {
+            f.rows.iter().fold(0.0, |most: f64, x| if *x > most { *x } else { most })
+        } else {
+            self.size(f)
+        };
+        let (Some(along_s), Some(along_t)) = (&self.tables[m], &self.tables[n]) else {
+            return Model { c: [0.0; 10], rest: f64::INFINITY };
+        };
+        if along_s.is_exact() && along_t.is_exact() {
+            let weight = along_s.weight * along_t.weight;
+            let steps = (8 * (m + n) + 512) as f64;
+            let error = (f.error + steps * HALF_ULP * size) * weight;
+            let by = [&self.projections[0][m], &self.projections[1][n]];
+            return Model::projected(&f.coefficients, error, by);
+        }
         let width = n + 1;
         let (by_s, by_t) = (&self.cuts[0][m], &self.cuts[1][n]);
         self.half.clear();
@@ -150,10 +185,7 @@ impl Room {
                 out.iter_mut().zip(row).for_each(|(out, x)| *out += weight * x);
             }
         }
-        let error = f.error + (10 * (m + n) + 16) as f64 * HALF_ULP * f.size();
-        let (Some(along_s), Some(along_t)) = (&self.tables[m], &self.tables[n]) else {
-            return Model { c: [0.0; 10], rest: f64::INFINITY };
-        };
+        let error = f.error + (10 * (m + n) + 18) as f64 * HALF_ULP * size;
         Model::of(&self.cut, f.degree, error, [along_s, along_t])
     }
 
@@ -388,13 +420,11 @@ impl Operator {
     fn known(&self, quantity: Quantity, sign: f64) -> Known {
         let Self { a, b, d } = self;
         let (a, b, d) = (a.scaled(sign), b.scaled(sign), d.scaled(sign));
-        let slope = |f: &Model| Slope {
-            middle: f.middle(),
-            range: f.range(),
-            gradient: [Interval::ENTIRE; 2],
-        };
-        let plain = known(&Shape { a: slope(&a), b: slope(&b), d: slope(&d) }, quantity);
-        let better = |range: Interval| Known { range: plain.range.and(range), ..plain };
+        let entries = [&a, &b, &d];
+        let middle = of_entries(entries.map(Model::middle), quantity);
+        let plain = of_entries(entries.map(Model::range), quantity);
+        let gradient = [Interval::ENTIRE; 2];
+        let better = |range: Interval| Known { middle, range: plain.and(range), gradient };
         let mean = a.plus(&d).scaled(0.5);
         if quantity == Quantity::Mean {
             return better(mean.range());
@@ -413,10 +443,7 @@ impl Operator {
         match quantity {
             Quantity::Greater => better(greater),
             Quantity::Less => better(less),
-            _ => better(Interval {
-                low: greater.least_magnitude().max(less.least_magnitude()),
-                high: greater.magnitude().max(less.magnitude()),
-            }),
+            _ => better(sharper(greater, less)),
         }
     }
 }

@@ -47,7 +47,12 @@ pub(super) struct Table {
     to: Vec<[f64; ORDER]>,
     /// `from[k]`: Bernstein coefficient k of the Chebyshev polynomials.
     from: Vec<[f64; ORDER]>,
+    /// Sum of the absolute weights: what coefficients of 1 have at most.
+    pub weight: f64,
 }
+
+/// The weights of a net's coefficients in one direction in the Chebyshev coefficients of its part on an interval.
+pub(super) type Projection = Vec<[f64; ORDER]>;
 
 impl Table {
     /// For degree n: the projection by Legendre polynomials, exact up to degree 4.
@@ -83,11 +88,50 @@ impl Table {
             3 => 4.0 * power(3, k) - 3.0 * power(1, k),
             _ => 8.0 * power(4, k) - 8.0 * power(2, k) + 1.0,
         };
-        Self {
-            to: (0..=n).map(|k| std::array::from_fn(|i| chebyshev(i, k))).collect(),
-            from: (0..=n).map(|k| std::array::from_fn(|i| polynomial(i, k))).collect(),
-        }
+        let to: Vec<[f64; ORDER]> =
+            (0..=n).map(|k| std::array::from_fn(|i| chebyshev(i, k))).collect();
+        let weight = to.iter().flatten().map(|x| x.abs()).sum();
+        let from = (0..=n).map(|k| std::array::from_fn(|i| polynomial(i, k))).collect();
+        Self { to, from, weight }
     }
+
+    /// Whether nothing is lost: the degree is at most 4.
+    pub fn is_exact(&self) -> bool {
+        self.to.len() <= ORDER
+    }
+
+    /// With the matrix that cuts to an interval: row k has the weights of coefficient k in all new ones.
+    pub fn projection(&self, cut: &[f64], out: &mut Projection) {
+        out.clear();
+        out.extend(cut.chunks_exact(self.to.len()).map(|row| {
+            let mut sum = [0.0; ORDER];
+            for (x, by) in row.iter().zip(&self.to) {
+                (0..ORDER).for_each(|i| sum[i] += x * by[i]);
+            }
+            sum
+        }));
+    }
+}
+
+/// The cubic part of a sum of products of Chebyshev polynomials, and what the others may come to.
+fn economised(at: &[[f64; ORDER]; ORDER]) -> ([f64; COUNT], f64) {
+    let mut dropped = 0.0;
+    for i in 0..ORDER {
+        (ORDER - 1 - i..ORDER).for_each(|j| dropped += at[i][j].abs());
+    }
+    let c = [
+        at[0][0] - at[2][0] - at[0][2],
+        at[1][0] - 3.0 * at[3][0] - at[1][2],
+        at[0][1] - 3.0 * at[0][3] - at[2][1],
+        2.0 * at[2][0],
+        at[1][1],
+        2.0 * at[0][2],
+        4.0 * at[3][0],
+        2.0 * at[2][1],
+        2.0 * at[1][2],
+        4.0 * at[0][3],
+    ];
+    (c, dropped)
 }
 
 fn sum(x: [f64; ORDER]) -> f64 {
@@ -105,6 +149,23 @@ impl Model {
         model.c[1 + axis] = 0.5 * (high - low);
         model.rest = 4.0 * HALF_ULP * low.abs().max(high.abs());
         model
+    }
+
+    /// A polynomial with Bernstein coefficients `f` on its part of the domain, off by at most `error` and the rounding of
+    /// sums of products with the projections; for degrees up to 4.
+    pub fn projected(f: &[f64], error: f64, [along_s, along_t]: [&Projection; 2]) -> Self {
+        let mut at = [[0.0; ORDER]; ORDER];
+        for (row, weights) in f.chunks_exact(along_t.len()).zip(along_s) {
+            let mut part = [0.0; ORDER];
+            for (x, by) in row.iter().zip(along_t) {
+                (0..ORDER).for_each(|j| part[j] += x * by[j]);
+            }
+            for (at, weight) in at.iter_mut().zip(weights) {
+                (0..ORDER).for_each(|j| at[j] += weight * part[j]);
+            }
+        }
+        let (c, dropped) = economised(&at);
+        Self { c, rest: (dropped + error) * UP }
     }
 
     /// A polynomial with Bernstein coefficients `f`, each off by at most `error`.
@@ -133,26 +194,8 @@ impl Model {
                 size = if x.abs() > size { x.abs() } else { size };
             }
         }
-        let mut all = 0.0;
-        let mut dropped = 0.0;
-        for (i, row) in at.iter().enumerate() {
-            for (j, x) in row.iter().enumerate() {
-                all += x.abs();
-                dropped += if i + j > 3 { x.abs() } else { 0.0 };
-            }
-        }
-        let c = [
-            at[0][0] - at[2][0] - at[0][2],
-            at[1][0] - 3.0 * at[3][0] - at[1][2],
-            at[0][1] - 3.0 * at[0][3] - at[2][1],
-            2.0 * at[2][0],
-            at[1][1],
-            2.0 * at[0][2],
-            4.0 * at[3][0],
-            2.0 * at[2][1],
-            2.0 * at[1][2],
-            4.0 * at[0][3],
-        ];
+        let all: f64 = at.iter().flatten().map(|x| x.abs()).sum();
+        let (c, dropped) = economised(&at);
         // The tables' entries are at most 17 terms' sum, each rounded a few times.
         let rounded = 256.0 * HALF_ULP * (all + size);
         Self { c, rest: (off + dropped + error + rounded) * UP }

@@ -9,9 +9,7 @@
 //! have differences of exactly zero.
 
 use super::doubled::{Doubled, UNIT};
-use super::polynomial::Polynomial;
 use crate::bezier::Bidegree;
-use crate::bounds::HALF_ULP;
 use crate::index::SurfaceIndex;
 use crate::knots::Knots;
 use crate::surface::Surface;
@@ -285,11 +283,29 @@ impl Exact {
         Self { error: divided.error + 8.0 * UNIT * divided.size(), ..divided }
     }
 
-    pub fn rounded(&self) -> Polynomial {
+    pub fn rounded(&self) -> Rounded {
         let coefficients: Vec<f64> = self.coefficients.iter().map(|x| x.rounded()).collect();
-        let f = Polynomial { coefficients, degree: self.degree, error: self.error };
-        Polynomial { error: self.error + 2.0 * HALF_ULP * f.size(), ..f }
+        let width = self.degree.t + 1;
+        let mut rows = vec![0.0f64; self.degree.s + 1];
+        let mut columns = vec![0.0f64; width];
+        for (row, most) in coefficients.chunks_exact(width).zip(&mut rows) {
+            for (x, along) in row.iter().zip(&mut columns) {
+                *along = if x.abs() > *along { x.abs() } else { *along };
+                *most = if x.abs() > *most { x.abs() } else { *most };
+            }
+        }
+        Rounded { coefficients, degree: self.degree, error: self.error, rows, columns }
     }
+}
+
+/// Coefficients as doubles: each is off by its own rounding, a half ulp, and by `error`.
+pub(super) struct Rounded {
+    pub coefficients: Vec<f64>,
+    pub degree: Bidegree,
+    pub error: f64,
+    /// Greatest absolute coefficient of each row (s) and of each column (t).
+    pub rows: Vec<f64>,
+    pub columns: Vec<f64>,
 }
 
 #[cfg(test)]
@@ -323,7 +339,7 @@ mod tests {
         for x in &second.coefficients {
             // The poles themselves are rounded to 1e-16: a share of 1e2 of what they differ by.
             let found = x / (index.frame.scale * width * width);
-            assert!(second.error < 1e-8 * x.abs() && found.is_finite(), "{x} {second:?}");
+            assert!(second.error < 1e-8 * x.abs() && found.is_finite(), "{x} {}", second.error);
         }
         assert!(net.zeros.iter().any(|zero| *zero));
     }

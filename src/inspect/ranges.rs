@@ -24,11 +24,12 @@ use super::interval::Interval;
 use super::local::{Local, Room};
 use super::net::Nets;
 use super::request::{
-    Quantity, Range, RangeOptions, Unbounded, areas_inside, check, collapsed_side, known,
-    parts_inside, patch_piece, segment_piece,
+    Quantity, Range, RangeOptions, Unbounded, areas_inside, check, collapsed_side,
+    of_entries, parts_inside, patch_piece, segment_piece,
 };
 use super::search::{Field, Start, Task, found};
 use crate::bezier::Bidegree;
+use crate::bounds::Vector;
 use crate::error::Error;
 use crate::index::{IndexedCurve, IndexedSurface, Span, SurfaceIndex};
 
@@ -53,11 +54,13 @@ struct Patches<'a> {
     /// How far patches were moved to be flat at their poles.
     moved: f64,
     room: Room,
+    work: Vec<Vector>,
 }
 
 impl Field for Patches<'_> {
     fn glance(&mut self, k: usize) -> Option<Interval> {
-        glance(&patch_piece(self.index, k)).map(|shape| known(&shape, self.quantity).range)
+        glance(&patch_piece(self.index, k), &mut self.work)
+            .map(|entries| of_entries(entries, self.quantity))
     }
 
     fn on(&mut self, (k, s, t): Start) -> Known {
@@ -161,6 +164,7 @@ pub fn surface_range(
         locals: (0..index.patches.len()).map(|_| None).collect(),
         moved: 0.0,
         room: Room::default(),
+        work: Vec::new(),
     };
     let thought = places(surface.surface(), &spans, &starts, quantity, options.side);
     // Where the surface is singular, closed forms that hold up to rounding say more than a long search.
