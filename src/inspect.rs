@@ -14,6 +14,8 @@ mod polynomial;
 
 mod doubled;
 
+mod chebyshev;
+
 mod model;
 
 mod net;

@@ -16,12 +16,13 @@
 //! ```
 
 use super::cell::Known;
+use super::chebyshev::{Nodes, Part, expansion};
 use super::doubled::{Doubled, UNIT};
 use super::interval::Interval;
-use super::model::{Model, Projection, Table};
+use super::model::Model;
 use super::net::{Exact, ExactNet, Nets, Rounded};
 use super::request::{Quantity, of_entries, sharper};
-use crate::bezier::{Bidegree, cut};
+use crate::bezier::Bidegree;
 use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, scaled};
 use crate::index::SurfaceIndex;
 
@@ -31,9 +32,6 @@ const ROUNDING: f64 = 2e-13;
 /// The same as a share of the greatest coordinate: files have 15 digits, and a plane through three rounded points is off by
 /// some times that.
 const WRITTEN: f64 = 2e-14;
-
-/// Boxes nearer to a side than this have a size of their own: the coefficients of the others hardly count there.
-const BESIDE: f64 = 1.0 / 64.0;
 
 /// A polynomial and its derivatives by s, t, ss, st and tt.
 struct Jet([Rounded; 6]);
@@ -68,16 +66,16 @@ pub(super) struct Local {
     pub moved: f64,
 }
 
-/// What all boxes share, and the matrices that cut nets to the present one.
+/// What all boxes share, and the Bernstein polynomials on the present one.
 #[derive(Default)]
 pub(super) struct Room {
-    tables: Vec<Option<Table>>,
+    nodes: Vec<Option<Nodes>>,
     ends: [[f64; 2]; 2],
-    /// By direction and degree; empty: not made yet.
-    cuts: [Vec<Vec<f64>>; 2],
-    projections: [Vec<Projection>; 2],
-    half: Vec<f64>,
-    cut: Vec<f64>,
+    /// By direction and degree.
+    parts: [Vec<Part>; 2],
+    /// Which of them are those of the present box.
+    made: [Vec<bool>; 2],
+    work: Vec<f64>,
 }
 
 /// The shape operator on a box.
@@ -94,99 +92,39 @@ struct Derivatives {
 }
 
 impl Room {
-    fn table(&mut self, n: usize) {
-        if self.tables.len() <= n {
-            self.tables.resize(n + 1, None);
-        }
-        if self.tables[n].is_none() {
-            self.tables[n] = Some(Table::new(n));
-        }
-    }
-
     /// Begins with a box.
     fn begin(&mut self, ends: [[f64; 2]; 2]) {
-        if ends != self.ends {
-            self.cuts.iter_mut().flatten().for_each(Vec::clear);
-            self.ends = ends;
+        for direction in 0..2 {
+            if ends[direction] != self.ends[direction] {
+                self.made[direction].fill(false);
+            }
         }
+        self.ends = ends;
     }
 
-    /// Makes the matrix that cuts a net of degree n in one direction: row k has the weights of coefficient k in all new ones.
-    fn matrix(&mut self, direction: usize, n: usize) {
-        let cuts = &mut self.cuts[direction];
-        if cuts.len() <= n {
-            cuts.resize(n + 1, Vec::new());
-            self.projections[direction].resize(n + 1, Vec::new());
+    /// Makes the polynomials of degree n on the box in one direction.
+    fn make(&mut self, direction: usize, n: usize) {
+        let (parts, made) = (&mut self.parts[direction], &mut self.made[direction]);
+        if parts.len() <= n {
+            parts.resize(n + 1, Part::default());
+            made.resize(n + 1, false);
         }
-        if !cuts[n].is_empty() {
+        if made[n] {
             return;
         }
-        // The cut of the unit vectors, all at once, is its transpose.
-        let (width, [a, b]) = (n + 1, self.ends[direction]);
-        let mut all = std::mem::take(&mut self.half);
-        all.clear();
-        all.extend((0..width * width).map(|k| f64::from(u8::from(k % (width + 1) == 0))));
-        cut(&mut all, n, width, width, a, b);
-        cuts[n].extend((0..width * width).map(|k| all[k % width * width + k / width]));
-        self.half = all;
-        if let Some(table) = self.tables[n].as_ref().filter(|table| table.is_exact()) {
-            table.projection(&cuts[n], &mut self.projections[direction][n]);
+        if self.nodes.len() <= n {
+            self.nodes.resize(n + 1, None);
         }
+        let nodes = self.nodes[n].get_or_insert_with(|| Nodes::new(n));
+        nodes.part(self.ends[direction], &mut self.work, &mut parts[n]);
+        made[n] = true;
     }
 
-    /// The greatest sum of absolute coefficients times weights on the present box: what rounding is relative to.
-    fn size(&self, f: &Rounded) -> f64 {
-        let most = |sizes: &[f64], by: &[f64]| {
-            let width = sizes.len();
-            let sum = |k: usize| (0..width).map(|i| sizes[i] * by[i * width + k]).sum::<f64>();
-            (0..width).map(sum).fold(0.0, f64::max)
-        };
-        let Bidegree { s: m, t: n } = f.degree;
-        most(&f.rows, &self.cuts[0][m]).min(most(&f.columns, &self.cuts[1][n]))
-    }
-
-    /// Rounding: entries of a matrix are off by 8 half ulps a degree of themselves, the sum by one a term; the coefficients by one.
     fn model(&mut self, f: &Rounded) -> Model {
         let Bidegree { s: m, t: n } = f.degree;
-        self.table(m);
-        self.table(n);
-        self.matrix(0, m);
-        self.matrix(1, n);
-        let is_wide = |[a, b]: [f64; 2]| a < 1.0 - BESIDE && b > BESIDE;
-        let size = if self.ends.iter().all(|&ends| is_wide(ends)) {
-            f.rows.iter().fold(0.0, |most: f64, x| if *x > most { *x } else { most })
-        } else {
-            self.size(f)
-        };
-        let (Some(along_s), Some(along_t)) = (&self.tables[m], &self.tables[n]) else {
-            return Model { c: [0.0; 10], rest: f64::INFINITY };
-        };
-        if along_s.is_exact() && along_t.is_exact() {
-            let weight = along_s.weight * along_t.weight;
-            let steps = (8 * (m + n) + 512) as f64;
-            let error = (f.error + steps * HALF_ULP * size) * weight;
-            let by = [&self.projections[0][m], &self.projections[1][n]];
-            return Model::projected(&f.coefficients, error, by);
-        }
-        let width = n + 1;
-        let (by_s, by_t) = (&self.cuts[0][m], &self.cuts[1][n]);
-        self.half.clear();
-        self.half.resize(f.coefficients.len(), 0.0);
-        let rows = f.coefficients.chunks_exact(width);
-        for (row, out) in rows.zip(self.half.chunks_exact_mut(width)) {
-            for (x, weights) in row.iter().zip(by_t.chunks_exact(width)) {
-                out.iter_mut().zip(weights).for_each(|(out, weight)| *out += x * weight);
-            }
-        }
-        self.cut.clear();
-        self.cut.resize(f.coefficients.len(), 0.0);
-        for (row, weights) in self.half.chunks_exact(width).zip(by_s.chunks_exact(m + 1)) {
-            for (out, weight) in self.cut.chunks_exact_mut(width).zip(weights) {
-                out.iter_mut().zip(row).for_each(|(out, x)| *out += weight * x);
-            }
-        }
-        let error = f.error + (10 * (m + n) + 18) as f64 * HALF_ULP * size;
-        Model::of(&self.cut, f.degree, error, [along_s, along_t])
+        self.make(0, m);
+        self.make(1, n);
+        Model::of(&expansion(f, [&self.parts[0][m], &self.parts[1][n]], &mut self.work))
     }
 
     fn models(&mut self, jet: &Jet) -> [Model; 6] {

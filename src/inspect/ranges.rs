@@ -24,8 +24,8 @@ use super::interval::Interval;
 use super::local::{Local, Room};
 use super::net::Nets;
 use super::request::{
-    Quantity, Range, RangeOptions, Unbounded, areas_inside, check, collapsed_side,
-    of_entries, parts_inside, patch_piece, segment_piece,
+    Quantity, Range, RangeOptions, Unbounded, areas_inside, check, collapsed_side, of_entries,
+    parts_inside, patch_piece, segment_piece,
 };
 use super::search::{Field, Start, Task, found};
 use crate::bezier::Bidegree;
