@@ -26,6 +26,8 @@ mod request;
 
 mod local;
 
+mod crosscap;
+
 mod growth;
 
 mod search;

@@ -94,6 +94,14 @@ impl Nodes {
     }
 }
 
+/// The Bernstein polynomials of degree n at x.
+pub(super) fn bernstein(n: usize, x: f64) -> Vec<f64> {
+    let (mut up, mut down) = (vec![0.0; n + 1], vec![0.0; n + 1]);
+    powers(x, &mut up);
+    powers(1.0 - x, &mut down);
+    (0..=n).map(|k| binomial(n, k) * up[k] * down[n - k]).collect()
+}
+
 /// A polynomial on a box in Chebyshev's basis.
 pub(super) struct Expansion {
     pub at: [[f64; ORDER]; ORDER],

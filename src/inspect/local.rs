@@ -16,7 +16,8 @@
 //! ```
 
 use super::cell::Known;
-use super::chebyshev::{Nodes, Part, expansion};
+use super::chebyshev::{Nodes, Part, bernstein, expansion};
+use super::crosscap::Homogeneous;
 use super::doubled::{Doubled, UNIT};
 use super::interval::Interval;
 use super::model::Model;
@@ -51,7 +52,7 @@ impl Jet {
 }
 
 /// A patch in the coordinates in which its curvatures are formed.
-struct Form {
+pub(super) struct Form {
     position: [Jet; 3],
     weight: Option<Jet>,
     /// The side that is a smooth pole; its parameters are turned so that it is t = 0.
@@ -64,6 +65,9 @@ pub(super) struct Local {
     forms: Vec<Form>,
     /// How far the patch was moved to be flat at its poles.
     pub moved: f64,
+    /// For each side that is not exactly a point, the share of the patch from it on which the patch is no wider than the side is
+    /// long; 1 for the others.
+    pub short: [f64; 4],
 }
 
 /// What all boxes share, and the Bernstein polynomials on the present one.
@@ -157,7 +161,8 @@ fn quotient(f: &[Model; 6], w: &[Model; 6], inverse: &Model) -> [Model; 6] {
 }
 
 impl Form {
-    fn new(net: &ExactNet) -> Self {
+    /// Of a net as it is.
+    pub fn new(net: &ExactNet) -> Self {
         let of = |c: usize| Jet::of(net, c);
         let weight = net.rational.then(|| of(3));
         Self { position: [of(0), of(1), of(2)], weight, pole: None, is_mirrored: false }
@@ -235,6 +240,35 @@ impl Form {
             Some(3) => [s, back(t)],
             _ => [s, t],
         }
+    }
+
+    /// The point and its derivatives in homogeneous coordinates over a box; of a form as its net is.
+    pub fn homogeneous_on(&self, ends: [[f64; 2]; 2], room: &mut Room) -> Homogeneous<Interval> {
+        room.begin(ends);
+        let point = Interval::point;
+        let [x, y, z] = [0, 1, 2].map(|c| room.models(&self.position[c]).map(|f| f.range()));
+        let weight = match &self.weight {
+            Some(weight) => room.models(weight).map(|f| f.range()),
+            None => [1.0, 0.0, 0.0, 0.0, 0.0, 0.0].map(point),
+        };
+        [x, y, z, weight]
+    }
+
+    /// The same at a place, without bounds.
+    pub fn homogeneous_at(&self, [s, t]: [f64; 2]) -> Homogeneous<f64> {
+        let Bidegree { s: m, t: n } = self.position[0].0[0].degree;
+        let bases = |n: usize, x: f64| (0..3).map(|k| bernstein(n.saturating_sub(k), x)).collect();
+        let [by_s, by_t]: [Vec<Vec<f64>>; 2] = [bases(m, s), bases(n, t)];
+        let value = |f: &Rounded| {
+            let (by_s, by_t) = (&by_s[m - f.degree.s], &by_t[n - f.degree.t]);
+            let row = |row: &[f64]| row.iter().zip(by_t).map(|(x, b)| x * b).sum::<f64>();
+            let rows = f.coefficients.chunks_exact(f.degree.t + 1).zip(by_s);
+            rows.map(|(values, b)| b * row(values)).sum::<f64>()
+        };
+        let of = |jet: &Jet| std::array::from_fn(|k| value(&jet.0[k]));
+        let [x, y, z] = [0, 1, 2].map(|c| of(&self.position[c]));
+        let weight = self.weight.as_ref().map_or([1.0, 0.0, 0.0, 0.0, 0.0, 0.0], of);
+        [x, y, z, weight]
     }
 
     fn derivatives(&self, room: &mut Room) -> Option<Derivatives> {
@@ -402,12 +436,13 @@ impl Local {
                 // What was moved at one pole is off at the other.
                 let made = if made.len() > 1 { poles(nets, moved) } else { Some(made) };
                 let forms = made.into_iter().flatten().map(|made| made.0).collect();
-                return Self { forms, moved };
+                return Self { forms, moved, short: [1.0; 4] };
             }
         }
         let exact = nets.net(k, [0.5; 2]);
         let origin = exact.point(exact.degree.count() / 2);
-        Self { forms: vec![Form::new(&exact.about(origin))], moved: 0.0 }
+        let exact = exact.about(origin);
+        Self { forms: vec![Form::new(&exact)], moved: 0.0, short: exact.short_sides() }
     }
 
     /// Whether what is singular at its collapsed sides is divided out.

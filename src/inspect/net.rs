@@ -10,6 +10,7 @@
 
 use super::doubled::{Doubled, UNIT};
 use crate::bezier::Bidegree;
+use crate::bounds::{norm, sub};
 use crate::index::SurfaceIndex;
 use crate::knots::Knots;
 use crate::surface::Surface;
@@ -181,6 +182,36 @@ impl ExactNet {
             self.sizes[c] += 2.0 * origin[c].high.abs();
         }
         self
+    }
+
+    /// For each side the share of the patch from it on which the patch is no wider than the side is long, at most 1 and only about;
+    /// 1 for a side that is a point.
+    pub fn short_sides(&self) -> [f64; 4] {
+        let Bidegree { s: p, t: q } = self.degree;
+        let count = self.degree.count();
+        let at = |k: usize| {
+            let weight = if self.rational { self.poles[3 * count + k].high } else { 1.0 };
+            [0, 1, 2].map(|c| self.poles[c * count + k].high / weight)
+        };
+        [0, 1, 2, 3].map(|side| {
+            let along = if side < 2 { q } else { p };
+            // A pole of the side and the one next to it.
+            let poles = |i: usize| match side {
+                0 => [i, if p > 0 { q + 1 + i } else { i }],
+                1 => [p * (q + 1) + i, p.saturating_sub(1) * (q + 1) + i],
+                2 => [i * (q + 1), i * (q + 1) + q.min(1)],
+                _ => [i * (q + 1) + q, i * (q + 1) + q.saturating_sub(1)],
+            };
+            let (mut length, mut opening) = (0.0f64, 0.0f64);
+            for i in 0..along {
+                let [a, b] = [poles(i), poles(i + 1)].map(|pair| pair.map(at));
+                let (edge, next) = (sub(b[0], a[0]), sub(b[1], a[1]));
+                length = length.max(norm(edge));
+                opening = opening.max(norm(sub(next, edge)));
+            }
+            let across = (if side < 2 { p } else { q }) as f64;
+            if length > 0.0 { (length / (across * opening)).min(1.0) } else { 1.0 }
+        })
     }
 
     /// The net with the poles of the side t = 0 moved into the origin, and how far.
