@@ -8,16 +8,43 @@
 //! Coefficients that vanish because poles coincide are exactly zero; the first one that is not must exclude zero, rounding
 //! included. A cone's tip has i = 2, j = 2, k = 2: 1 / t. A cusp (two equal rows of poles) has the same along t.
 //!
-//! Limit: approaches along straight lines of the domain from sides of patches; orders below 16.
+//! In a corner the partials may be parallel without vanishing. Then the direction that bends without bound is neither that of s nor
+//! that of t, and the mean curvature, which knows all directions, tells: E q - 2 F m + G l over 2 D^(3/2), there t / t^3. A
+//! corner is approached along curves s - s0 = t^a too, each of which sees other terms first.
+//!
+//! Limit: approaches from sides of patches along these curves; orders below 16.
 
 use super::doubled::{Doubled, UNIT};
 use super::interval::Interval;
 use super::net::ExactNet;
 use super::request::Quantity;
 use crate::bezier::binomial;
+use crate::bounds::HALF_ULP;
 
 /// Terms that are kept.
 const TERMS: usize = 16;
+
+/// A way into a side: s = s0 + sign x^a, t = x^b for x -> 0; a is 0 when s stays.
+#[derive(Clone, Copy)]
+pub(super) struct Way {
+    pub s0: f64,
+    pub sign: f64,
+    pub powers: [usize; 2],
+}
+
+impl Way {
+    /// Straight across the side.
+    pub fn across(s0: f64) -> Self {
+        Self { s0, sign: 0.0, powers: [0, 1] }
+    }
+
+    /// Into a corner, s0 being 0 or 1.
+    pub fn into_corner(s0: f64) -> [Self; 4] {
+        let sign = 1.0 - 2.0 * s0;
+        let bent = [[1, 1], [1, 2], [2, 1]].map(|powers| Self { s0, sign, powers });
+        [Self::across(s0), bent[0], bent[1], bent[2]]
+    }
+}
 
 /// A power series in t; exact zeros are [0, 0].
 #[derive(Clone)]
@@ -135,24 +162,54 @@ fn series(net: &ExactNet, c: usize, order: usize, s0: f64) -> Series {
     Series(out)
 }
 
-/// Whether a quantity falls below and grows beyond every bound where s = s0 and t goes to 0 on a net about its point there; `sign`
-/// is -1 when the net is mirrored.
-pub(super) fn unbounded(net: &ExactNet, s0: f64, quantity: Quantity, sign: f64) -> [bool; 2] {
-    let of = |order: usize| [0, 1, 2].map(|c| series(net, c, order, s0));
-    let by_t = |x: &Vector| [0, 1, 2].map(|c| x[c].derivative());
-    let (x, xs, xss) = (of(0), of(1), of(2));
-    let (xt, xst) = (by_t(&x), by_t(&xs));
-    let xtt = by_t(&xt);
+/// A component and its derivatives by s, t, ss, st and tt along a way.
+fn jet(net: &ExactNet, c: usize, way: Way) -> [Series; 6] {
+    let Way { s0, sign, powers: [a, b] } = way;
+    // Derivatives by s, as series in t.
+    let last = if a == 0 { 2 } else { net.degree.s.max(2) };
+    let by_s: Vec<Series> = (0..=last).map(|order| series(net, c, order, s0)).collect();
+    let along = |by_s: &[Series], order: usize| {
+        let mut sum = Series([ZERO; TERMS]);
+        let (mut factor, mut power) = (1.0, 0);
+        for (k, term) in by_s[order..].iter().enumerate() {
+            if k > 0 {
+                // Taylor's series about s0: exact factors but for the division by k!.
+                factor *= sign / k as f64;
+                power += a;
+            }
+            if power >= TERMS || (k > 0 && a == 0) {
+                break;
+            }
+            let moved = Series(std::array::from_fn(|i| match i.checked_sub(power) {
+                Some(i) if i % b == 0 => term.0[i / b],
+                _ => ZERO,
+            }));
+            let rounded = Interval::around(factor, 4.0 * k as f64 * HALF_ULP * factor.abs());
+            let scaled = |x: Interval| if x == ZERO { ZERO } else { x * rounded };
+            sum = sum.plus(1.0, &Series(moved.0.map(scaled)));
+        }
+        sum
+    };
+    let by_t = |f: &[Series]| f.iter().map(Series::derivative).collect::<Vec<_>>();
+    let (t, tt) = (by_t(&by_s), by_t(&by_t(&by_s)));
+    [along(&by_s, 0), along(&by_s, 1), along(&t, 0), along(&by_s, 2), along(&t, 1), along(&tt, 0)]
+}
+
+/// Whether a quantity falls below and grows beyond every bound along a way into the side t = 0 of a net about its point there;
+/// `sign` is -1 when the net is mirrored.
+pub(super) fn unbounded(net: &ExactNet, way: Way, quantity: Quantity, sign: f64) -> [bool; 2] {
+    let jets = [0, 1, 2].map(|c| jet(net, c, way));
+    let of = |k: usize| [0, 1, 2].map(|c: usize| jets[c][k].clone());
+    let [x, xs, xt, xss, xst, xtt] = [0, 1, 2, 3, 4, 5].map(of);
     let mut one = Series([ZERO; TERMS]);
     one.0[0] = Interval::point(1.0);
-    let weight = |order: usize| match (net.rational, order) {
-        (true, _) => series(net, 3, order, s0),
-        (false, 0) => one.clone(),
-        _ => Series([ZERO; TERMS]),
+    let zero = || Series([ZERO; TERMS]);
+    let weight = if net.rational {
+        jet(net, 3, way)
+    } else {
+        [one.clone(), zero(), zero(), zero(), zero(), zero()]
     };
-    let (w, ws, wss) = (weight(0), weight(1), weight(2));
-    let (wt, wst) = (w.derivative(), ws.derivative());
-    let wtt = wt.derivative();
+    let [w, ws, wt, wss, wst, wtt] = weight;
     // As of `cell`, the polynomials of the fundamental forms.
     let turned = cross(&xs, &xt);
     let part = mixed(&wt, &cross(&x, &xs), -1.0, &ws, &cross(&x, &xt));
@@ -172,21 +229,19 @@ pub(super) fn unbounded(net: &ExactNet, s0: f64, quantity: Quantity, sign: f64) 
             found[usize::from(side * sign > 0.0)] = true;
         }
     };
+    let mean = e.times(&q).plus(-2.0, &f.times(&m)).plus(1.0, &g.times(&l));
+    let product = l.times(&q).plus(-1.0, &m.times(&m)).lead().filter(|(k, _)| *k < 2 * area);
     match quantity {
-        Quantity::Mean => {
-            let n = e.times(&q).plus(-2.0, &f.times(&m)).plus(1.0, &g.times(&l));
-            note(&n, 3 * area);
-        }
+        Quantity::Mean => note(&mean, 3 * area),
         Quantity::Gaussian => {
-            let p = l.times(&q).plus(-1.0, &m.times(&m));
             // The product does not change with the side of the normal.
-            if let Some((order, side)) = p.lead()
-                && order < 2 * area
-            {
+            if let Some((_, side)) = product {
                 found[usize::from(side > 0.0)] = true;
             }
         }
         _ => {
+            // A normal curvature is between the principal ones, and so is the mean.
+            note(&mean, 3 * area);
             if let Some((e, _)) = e.lead() {
                 note(&l, area + 2 * e);
             }
@@ -196,10 +251,9 @@ pub(super) fn unbounded(net: &ExactNet, s0: f64, quantity: Quantity, sign: f64) 
         }
     }
     match quantity {
-        // A normal curvature is between the principal ones.
         Quantity::Greater => [false, found[1]],
         Quantity::Less => [found[0], false],
-        Quantity::Sharpest => [false, found[0] || found[1]],
+        Quantity::Sharpest => [false, found[0] || found[1] || product.is_some()],
         _ => found,
     }
 }

@@ -34,6 +34,11 @@ const ROUNDING: f64 = 2e-13;
 /// some times that.
 const WRITTEN: f64 = 2e-14;
 
+/// What counts as rounding, for a greatest coordinate.
+pub(super) fn rounding(magnitude: f64) -> f64 {
+    ROUNDING.max(WRITTEN * magnitude)
+}
+
 /// A polynomial and its derivatives by s, t, ss, st and tt.
 struct Jet([Rounded; 6]);
 
@@ -193,7 +198,7 @@ impl Form {
         let across = cross(third, along);
         let axes = [along, scaled(across, 1.0 / norm(across)), third];
         let gap = ways.iter().map(|way| dot(*way, third).abs()).fold(0.0, f64::max);
-        if gap.is_nan() || gap > ROUNDING.max(WRITTEN * nets.magnitude()) {
+        if gap.is_nan() || gap > rounding(nets.magnitude()) {
             return None;
         }
         // The axes are unit vectors and normal to each other up to rounding: that much the patch is sheared.

@@ -10,7 +10,7 @@
 
 use super::doubled::{Doubled, UNIT};
 use crate::bezier::Bidegree;
-use crate::bounds::{norm, sub};
+use crate::bounds::{HALF_ULP, cross, norm, scaled, sub};
 use crate::index::SurfaceIndex;
 use crate::knots::Knots;
 use crate::surface::Surface;
@@ -212,6 +212,61 @@ impl ExactNet {
             let across = (if side < 2 { p } else { q }) as f64;
             if length > 0.0 { (length / (across * opening)).min(1.0) } else { 1.0 }
         })
+    }
+
+    /// The net, turned in space, with the partials in the corner (s0, 0) moved to be parallel and the corner in the origin; and how far.
+    /// None when they are farther from it than `most`, or as far as they are long.
+    pub fn parallel(self, s0: f64, most: f64) -> Option<(Self, f64)> {
+        let Bidegree { s: p, t: q } = self.degree;
+        if p == 0 || q == 0 {
+            return None;
+        }
+        let count = self.degree.count();
+        let (first, next) = if s0 == 0.0 { (0, q + 1) } else { (p * (q + 1), (p - 1) * (q + 1)) };
+        let origin = self.point(first);
+        let mut net = self.about(origin);
+        let weight = |net: &Self, k: usize| {
+            if net.rational { net.poles[3 * count + k].high } else { 1.0 }
+        };
+        let at = |net: &Self, k: usize| {
+            [0, 1, 2].map(|c| net.poles[c * count + k].high / weight(net, k))
+        };
+        let mut ways = [next, first + 1].map(|k| at(&net, k));
+        if norm(ways[1]) > norm(ways[0]) {
+            ways.swap(0, 1);
+        }
+        let along = scaled(ways[0], 1.0 / norm(ways[0]));
+        let off = norm(cross(along, ways[1]));
+        if off.is_nan() || off > most || off > 1e-6 * norm(ways[1]) {
+            return None;
+        }
+        // Any two axes normal to it; unit vectors and normal to each other up to rounding: that much the patch is sheared.
+        let least = [0, 1, 2].map(|c: usize| along[c].abs());
+        let axis = if least[0] <= least[1].min(least[2]) {
+            [1.0, 0.0, 0.0]
+        } else if least[1] <= least[2] {
+            [0.0, 1.0, 0.0]
+        } else {
+            [0.0, 0.0, 1.0]
+        };
+        let second = cross(along, axis);
+        let second = scaled(second, 1.0 / norm(second));
+        let axes = [along, second, cross(along, second)];
+        let radius = (0..count).map(|k| norm(at(&net, k))).fold(0.0, f64::max);
+        let rows: Vec<Doubled> = net.poles[..3 * count].to_vec();
+        let size = net.sizes[0] + net.sizes[1] + net.sizes[2];
+        for (c, axis) in axes.iter().enumerate() {
+            for k in 0..count {
+                let terms = [0, 1, 2].map(|i| rows[i * count + k] * Doubled::new(axis[i]));
+                let is_fixed = k == first || (c > 0 && (k == next || k == first + 1));
+                let value =
+                    if is_fixed { Doubled::default() } else { terms[0] + terms[1] + terms[2] };
+                net.poles[c * count + k] = value;
+                net.zeros[c * count + k] = is_fixed;
+            }
+            net.sizes[c] = 2.0 * size;
+        }
+        Some((net, off + 16.0 * HALF_ULP * radius))
     }
 
     /// The net with the poles of the side t = 0 moved into the origin, and how far.

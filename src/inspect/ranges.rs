@@ -20,10 +20,10 @@ use super::cell::{Bending, Known, check_degree};
 use super::climb::places;
 use super::crosscap::{crosscap, passes};
 use super::glance::glance;
-use super::growth::unbounded;
+use super::growth::{Way, unbounded};
 use super::interval::Interval;
-use super::local::{Form, Local, Room};
-use super::net::Nets;
+use super::local::{Form, Local, Room, rounding};
+use super::net::{ExactNet, Nets};
 use super::request::{
     Quantity, Range, RangeOptions, Unbounded, areas_inside, check, collapsed_side, of_entries,
     parts_inside, patch_piece, segment_piece,
@@ -168,9 +168,26 @@ impl Patches<'_> {
                 let corner = x.round();
                 let corner = if side < 2 { [end, corner] } else { [corner, end] };
                 let (net, is_mirrored) = self.nets.net(k, corner).turned(side);
-                let (net, moved) = if is_collapsed { net.collapsed() } else { (net, 0.0) };
+                let (net, mut moved) = if is_collapsed { net.collapsed() } else { (net, 0.0) };
                 let sign = if is_mirrored { -1.0 } else { 1.0 };
-                let found = unbounded(&net, x, self.quantity, sign);
+                let is_corner = x == 0.0 || x == 1.0;
+                let across = [Way::across(x)];
+                let into = Way::into_corner(x);
+                let ways = if is_corner { &into[..] } else { &across[..] };
+                let along = |net: &ExactNet| {
+                    ways.iter().fold([false; 2], |all, way| {
+                        let found = unbounded(net, *way, self.quantity, sign);
+                        [all[0] || found[0], all[1] || found[1]]
+                    })
+                };
+                let mut found = along(&net);
+                if found == [false; 2]
+                    && is_corner
+                    && !is_collapsed
+                    && let Some((net, off)) = net.parallel(x, rounding(self.nets.magnitude()))
+                {
+                    (found, moved) = (along(&net), off);
+                }
                 if found != [false; 2] {
                     self.moved = self.moved.max(moved);
                     let [u, v] = spans(k);
