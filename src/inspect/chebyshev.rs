@@ -16,10 +16,14 @@ use super::net::Rounded;
 use crate::bezier::{Bidegree, binomial};
 use crate::bounds::HALF_ULP;
 use crate::portable::SameDigits;
+use crate::simd::{Kernel, Lanes, Level, Simd};
 use std::f64::consts::PI;
 
 /// Coefficients in each direction that are told one by one.
 pub(super) const ORDER: usize = 5;
+
+/// Coefficients that are summed at once.
+const BLOCK: usize = 4;
 
 /// The nodes of a degree.
 #[derive(Clone)]
@@ -52,7 +56,7 @@ fn powers(x: f64, out: &mut [f64]) {
 
 impl Nodes {
     pub fn new(n: usize) -> Self {
-        let (count, columns) = (n + 1, (n + 1).max(ORDER));
+        let (count, columns) = (n + 1, (n + 1).next_multiple_of(BLOCK));
         // cos(pi k / (2 count)).
         let cosine = |k: usize| (PI * (k % (4 * count)) as f64 / (2 * count) as f64).cosine();
         let square = |x: f64| x * x;
@@ -69,23 +73,23 @@ impl Nodes {
     }
 
     /// The polynomials on [a, b]; `work` is scratch memory.
-    pub fn part(&self, [a, b]: [f64; 2], work: &mut Vec<f64>, out: &mut Part) {
+    pub fn part(&self, [a, b]: [f64; 2], level: Level, work: &mut Vec<f64>, out: &mut Part) {
         let (count, columns) = (self.at.len(), self.columns);
         let n = count - 1;
         work.clear();
-        work.resize(2 * count, 0.0);
-        let (up, down) = work.split_at_mut(count);
-        out.columns = columns;
-        out.to.clear();
-        out.to.resize(count * columns, 0.0);
-        for (&[share, rest], by) in self.at.iter().zip(self.by.chunks_exact(columns)) {
+        work.resize((2 + count) * count, 0.0);
+        let (up, rest) = work.split_at_mut(count);
+        let (down, values) = rest.split_at_mut(count);
+        for (j, &[share, rest]) in self.at.iter().enumerate() {
             powers(a + (b - a) * share, up);
             powers((1.0 - b) + (b - a) * rest, down);
-            for (k, row) in out.to.chunks_exact_mut(columns).enumerate() {
-                let value = self.binomials[k] * up[k] * down[n - k];
-                row.iter_mut().zip(by).for_each(|(x, weight)| *x += value * weight);
+            for k in 0..count {
+                values[k * count + j] = self.binomials[k] * up[k] * down[n - k];
             }
         }
+        out.columns = columns;
+        out.to.resize(count * columns, 0.0);
+        level.run(Cosines { nodes: self, values, to: &mut out.to });
         out.peaks.clear();
         out.peaks.extend((0..count).map(|k| {
             let top = if n == 0 { a } else { (k as f64 / n as f64).clamp(a, b) };
@@ -109,6 +113,100 @@ pub(super) struct Expansion {
     pub rest: f64,
 }
 
+/// Sums of Bernstein coefficients times their weights: the first coefficients in both directions, and the absolute values of
+/// all others.
+struct Sums<'a> {
+    f: &'a [f64],
+    along_s: &'a Part,
+    along_t: &'a Part,
+    work: &'a mut Vec<f64>,
+}
+
+impl Kernel for Sums<'_> {
+    type Out = ([[f64; ORDER]; ORDER], f64);
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) -> Self::Out {
+        let Self { f, along_s, along_t, work } = self;
+        let (columns, rows) = (along_t.columns, along_s.columns);
+        let count = along_t.peaks.len();
+        let (by_s, _) = along_s.to.as_chunks::<BLOCK>();
+        let (by_t, _) = along_t.to.as_chunks::<BLOCK>();
+        let blocks = rows / BLOCK;
+        // Coefficient j in t has its coefficients in s from `j * blocks` on.
+        work.clear();
+        work.resize(ORDER * rows, 0.0);
+        let (sums, _) = work.as_chunks_mut::<BLOCK>();
+        let mut beyond = 0.0;
+        for (i, row) in f.chunks_exact(count).enumerate() {
+            let mut low = [0.0; ORDER];
+            let mut high = 0.0;
+            for block in 0..columns / BLOCK {
+                let mut sum = S::F4::splat(0.0);
+                for (x, by) in row.iter().zip(by_t[block..].iter().step_by(columns / BLOCK)) {
+                    sum = sum + S::F4::splat(*x) * S::F4::load(by);
+                }
+                let sum = sum.array();
+                for k in 0..BLOCK {
+                    if block * BLOCK + k < ORDER {
+                        low[block * BLOCK + k] = sum[k];
+                    } else {
+                        high += sum[k].abs();
+                    }
+                }
+            }
+            beyond += along_s.peaks[i] * high;
+            let weights = &by_s[i * blocks..(i + 1) * blocks];
+            for j in 0..ORDER.min(columns) {
+                let x = S::F4::splat(low[j]);
+                for (sum, by) in sums[j * blocks..(j + 1) * blocks].iter_mut().zip(weights) {
+                    (S::F4::load(sum) + x * S::F4::load(by)).store(sum);
+                }
+            }
+        }
+        let mut at = [[0.0; ORDER]; ORDER];
+        for j in 0..ORDER {
+            for (i, x) in work[j * rows..(j + 1) * rows].iter().enumerate() {
+                if i < ORDER {
+                    at[i][j] = *x;
+                } else {
+                    beyond += x.abs();
+                }
+            }
+        }
+        (at, beyond)
+    }
+}
+
+/// Sums of values at nodes times cosines.
+struct Cosines<'a> {
+    nodes: &'a Nodes,
+    /// By polynomial and node.
+    values: &'a [f64],
+    to: &'a mut [f64],
+}
+
+impl Kernel for Cosines<'_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) {
+        let Self { nodes, values, to } = self;
+        let (count, blocks) = (nodes.at.len(), nodes.columns / BLOCK);
+        let (by, _) = nodes.by.as_chunks::<BLOCK>();
+        let (to, _) = to.as_chunks_mut::<BLOCK>();
+        for (row, to) in values.chunks_exact(count).zip(to.chunks_exact_mut(blocks)) {
+            for (block, to) in to.iter_mut().enumerate() {
+                let mut sum = S::F4::splat(0.0);
+                for (x, by) in row.iter().zip(by[block..].iter().step_by(blocks)) {
+                    sum = sum + S::F4::splat(*x) * S::F4::load(by);
+                }
+                sum.store(to);
+            }
+        }
+    }
+}
+
 /// The part of a polynomial on a box; `work` is scratch memory.
 ///
 /// Rounding: values and sums take 7 half ulps a degree and direction, cosines 16; relative to the mean of the absolute values at the
@@ -117,53 +215,17 @@ pub(super) struct Expansion {
 pub(super) fn expansion(
     f: &Rounded,
     [along_s, along_t]: [&Part; 2],
+    level: Level,
     work: &mut Vec<f64>,
 ) -> Expansion {
     let Bidegree { s: m, t: n } = f.degree;
     let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
     let size = sum(&f.rows, &along_s.peaks).min(sum(&f.columns, &along_t.peaks));
-    let mut at = [[0.0; ORDER]; ORDER];
-    let mut beyond = 0.0;
-    let rows = f.coefficients.chunks_exact(n + 1);
-    let is_low = m < ORDER && n < ORDER;
-    if is_low {
-        for (row, by_s) in rows.zip(along_s.to.chunks_exact(ORDER)) {
-            let mut part = [0.0; ORDER];
-            for (x, by_t) in row.iter().zip(along_t.to.chunks_exact(ORDER)) {
-                part.iter_mut().zip(by_t).for_each(|(part, weight)| *part += x * weight);
-            }
-            for (at, weight) in at.iter_mut().zip(by_s) {
-                at.iter_mut().zip(part).for_each(|(at, x)| *at += weight * x);
-            }
-        }
-    } else {
-        let columns = along_t.columns;
-        work.clear();
-        work.resize(columns + ORDER * along_s.columns, 0.0);
-        let (part, all) = work.split_at_mut(columns);
-        let by_rows = along_s.to.chunks_exact(along_s.columns);
-        for ((row, by_s), peak) in rows.zip(by_rows).zip(&along_s.peaks) {
-            let mut terms = row.iter().zip(along_t.to.chunks_exact(columns));
-            if let Some((x, by_t)) = terms.next() {
-                part.iter_mut().zip(by_t).for_each(|(part, weight)| *part = x * weight);
-            }
-            for (x, by_t) in terms {
-                part.iter_mut().zip(by_t).for_each(|(part, weight)| *part += x * weight);
-            }
-            beyond += peak * part[ORDER..].iter().map(|x| x.abs()).sum::<f64>();
-            let low: [f64; ORDER] = std::array::from_fn(|j| part[j]);
-            for (all, weight) in all.chunks_exact_mut(ORDER).zip(by_s) {
-                all.iter_mut().zip(low).for_each(|(all, x)| *all += weight * x);
-            }
-        }
-        for (at, all) in at.iter_mut().zip(all.chunks_exact(ORDER)) {
-            at.copy_from_slice(all);
-        }
-        beyond += all[ORDER * ORDER..].iter().map(|x| x.abs()).sum::<f64>();
-    }
+    let (at, beyond) = level.run(Sums { f: &f.coefficients, along_s, along_t, work });
     let (rows, columns) = ((m + 1) as f64, (n + 1) as f64);
     let [low, high] = [(2.0 * rows - 1.0) * (2.0 * columns - 1.0), 9.0 * (2.0 * rows - 1.0)];
-    let shares = if is_low { low } else { high + 2.0 * columns * rows.max(columns) };
+    let shares =
+        if m < ORDER && n < ORDER { low } else { high + 2.0 * columns * rows.max(columns) };
     let steps = (8.0 * (rows + columns) + 48.0) * shares;
     // What each Bernstein coefficient is off the polynomial is.
     Expansion { at, rest: beyond + f.error + steps * HALF_ULP * size }

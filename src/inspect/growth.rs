@@ -117,43 +117,68 @@ fn mixed(a: &Series, x: &Vector, factor: f64, b: &Series, y: &Vector) -> Vector 
 /// A number in doubled precision, and whether it is exactly zero.
 type Digit = (Doubled, bool);
 
-/// A component's coefficients along t at s0, of the derivative by s of order `order`, as a series.
-fn series(net: &ExactNet, c: usize, order: usize, s0: f64) -> Series {
+/// The derivatives by s of a component at s0 up to an order, as series in t.
+fn by_s(net: &ExactNet, c: usize, last: usize, s0: f64) -> Vec<Series> {
     let (p, width, count) = (net.degree.s, net.degree.t + 1, net.degree.count());
-    if order > p {
-        return Series([ZERO; TERMS]);
-    }
-    let mut rows: Vec<Digit> =
-        (0..count).map(|k| (net.poles[c * count + k], net.zeros[c * count + k])).collect();
-    let share = Doubled::new(s0);
-    let rest = Doubled::one() - share;
-    let (mut size, mut factor) = (0.0f64, 1.0);
-    for level in 0..p {
-        let last = p - level;
-        for k in 0..last * width {
-            let ((a, is_a), (b, is_b)) = (rows[k], rows[k + width]);
-            size = size.max(a.high.abs()).max(b.high.abs());
-            rows[k] = if level < order {
-                (Doubled::new(last as f64) * (b - a), is_a && is_b)
-            } else {
-                let is_zero = (is_a || rest.is_zero()) && (is_b || share.is_zero());
-                (rest * a + share * b, is_zero)
-            };
+    let of = |k: usize| (net.poles[c * count + k], net.zeros[c * count + k]);
+    let size = (0..count).map(|k| of(k).0.high.abs()).fold(0.0, f64::max);
+    let error = net.error(c) + (8 * p + 8) as f64 * UNIT * size;
+    let row = |i: usize| (i * width..(i + 1) * width).map(of).collect::<Vec<Digit>>();
+    let mut found = Vec::new();
+    if s0 == 0.0 || s0 == 1.0 {
+        // Differences of rows, from the one at s0 inwards: all orders at once.
+        let mut rows: Vec<Vec<Digit>> = (0..=p).map(row).collect();
+        if s0 == 1.0 {
+            rows.reverse();
         }
-        if level < order {
-            factor *= 2.0 * last as f64;
+        let mut factor = 1.0;
+        for order in 0..=last.min(p) {
+            found.push(along_t(&rows[0], factor, error * 2.0f64.powi(order as i32), size));
+            // From s = 1 the parameter runs backwards.
+            factor *= (p - order) as f64 * (1.0 - 2.0 * s0);
+            for k in 0..p - order {
+                let (inner, outer) = rows.split_at_mut(k + 1);
+                for (a, b) in inner[k].iter_mut().zip(&outer[0]) {
+                    *a = (b.0 - a.0, a.1 && b.1);
+                }
+            }
+        }
+    } else {
+        for order in 0..=last.min(p) {
+            let mut rows: Vec<Digit> = (0..count).map(of).collect();
+            let (share, mut factor) = (Doubled::new(s0), 1.0);
+            let rest = Doubled::one() - share;
+            for level in 0..p {
+                for k in 0..(p - level) * width {
+                    let ((a, is_a), (b, is_b)) = (rows[k], rows[k + width]);
+                    rows[k] = if level < order {
+                        (b - a, is_a && is_b)
+                    } else {
+                        (rest * a + share * b, is_a && is_b)
+                    };
+                }
+                if level < order {
+                    factor *= (p - level) as f64;
+                }
+            }
+            found.push(along_t(&rows[..width], factor, error * 2.0f64.powi(order as i32), size));
         }
     }
+    found.resize(last + 1, Series([ZERO; TERMS]));
+    found
+}
+
+/// `factor` times the polynomial with these Bernstein coefficients, each off by at most `error`, as a series.
+fn along_t(row: &[Digit], factor: f64, error: f64, size: f64) -> Series {
     // Differences along t: coefficient k of the power form is C(n, k) times the difference of order k.
-    let error = factor * (net.error(c) + (8 * p + 8) as f64 * UNIT * size);
-    let n = width - 1;
-    let mut row: Vec<Digit> = rows[..width].to_vec();
+    let n = row.len() - 1;
+    let mut row = row.to_vec();
     let mut out = [ZERO; TERMS];
-    for (k, out) in out.iter_mut().enumerate().take(width) {
+    for (k, out) in out.iter_mut().enumerate().take(n + 1) {
         let (value, is_zero) = row[0];
         if !is_zero {
-            let scale = binomial(n, k);
-            let more = (error + 4.0 * UNIT * size * factor) * 2.0f64.powi(k as i32) * scale;
+            let scale = binomial(n, k) * factor;
+            let more = (error + 4.0 * UNIT * size) * 2.0f64.powi(k as i32) * scale.abs();
             *out = Interval::around(value.rounded(), 1e-15 * value.high.abs()).times(scale)
                 + Interval::around(0.0, more);
         }
@@ -167,7 +192,7 @@ fn jet(net: &ExactNet, c: usize, way: Way) -> [Series; 6] {
     let Way { s0, sign, powers: [a, b] } = way;
     // Derivatives by s, as series in t.
     let last = if a == 0 { 2 } else { net.degree.s.max(2) };
-    let by_s: Vec<Series> = (0..=last).map(|order| series(net, c, order, s0)).collect();
+    let by_s = by_s(net, c, last, s0);
     let along = |by_s: &[Series], order: usize| {
         let mut sum = Series([ZERO; TERMS]);
         let (mut factor, mut power) = (1.0, 0);
@@ -196,8 +221,8 @@ fn jet(net: &ExactNet, c: usize, way: Way) -> [Series; 6] {
 }
 
 /// Whether a quantity falls below and grows beyond every bound along a way into the side t = 0 of a net about its point there;
-/// `sign` is -1 when the net is mirrored.
-pub(super) fn unbounded(net: &ExactNet, way: Way, quantity: Quantity, sign: f64) -> [bool; 2] {
+/// none when the patch is regular at its end. `sign` is -1 when the net is mirrored.
+fn unbounded(net: &ExactNet, way: Way, quantity: Quantity, sign: f64) -> Option<[bool; 2]> {
     let jets = [0, 1, 2].map(|c| jet(net, c, way));
     let of = |k: usize| [0, 1, 2].map(|c: usize| jets[c][k].clone());
     let [x, xs, xt, xss, xst, xtt] = [0, 1, 2, 3, 4, 5].map(of);
@@ -219,7 +244,10 @@ pub(super) fn unbounded(net: &ExactNet, way: Way, quantity: Quantity, sign: f64)
     let (l, m, q) = (second(&xss, &wss), second(&xst, &wst), second(&xtt, &wtt));
     let (s, t) = (mixed(&w, &xs, -1.0, &ws, &x), mixed(&w, &xt, -1.0, &wt, &x));
     let (e, f, g) = (dot(&s, &s), dot(&s, &t), dot(&t, &t));
-    let Some((area, _)) = dot(&normal, &normal).lead() else { return [false; 2] };
+    let Some((area, _)) = dot(&normal, &normal).lead() else { return Some([false; 2]) };
+    if area == 0 {
+        return None;
+    }
     let mut found = [false; 2];
     // Twice the order of the quotient decides.
     let mut note = |numerator: &Series, below: i32| {
@@ -250,10 +278,25 @@ pub(super) fn unbounded(net: &ExactNet, way: Way, quantity: Quantity, sign: f64)
             }
         }
     }
-    match quantity {
+    Some(match quantity {
         Quantity::Greater => [false, found[1]],
         Quantity::Less => [found[0], false],
         Quantity::Sharpest => [false, found[0] || found[1] || product.is_some()],
         _ => found,
+    })
+}
+
+/// The same along several ways; those after one that shows a regular end are not tried.
+pub(super) fn unbounded_along(
+    net: &ExactNet,
+    ways: &[Way],
+    quantity: Quantity,
+    sign: f64,
+) -> [bool; 2] {
+    let mut all = [false; 2];
+    for way in ways {
+        let Some(found) = unbounded(net, *way, quantity, sign) else { break };
+        all = [all[0] || found[0], all[1] || found[1]];
     }
+    all
 }

@@ -26,6 +26,7 @@ use super::request::{Quantity, of_entries, sharper};
 use crate::bezier::Bidegree;
 use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, scaled};
 use crate::index::SurfaceIndex;
+use crate::simd::Level;
 
 /// Greatest distance of the poles next to a pole from a plane that counts as rounding, for a box diagonal of 1 to 2.
 const ROUNDING: f64 = 2e-13;
@@ -85,6 +86,7 @@ pub(super) struct Room {
     /// Which of them are those of the present box.
     made: [Vec<bool>; 2],
     work: Vec<f64>,
+    level: Level,
 }
 
 /// The shape operator on a box.
@@ -125,7 +127,7 @@ impl Room {
             self.nodes.resize(n + 1, None);
         }
         let nodes = self.nodes[n].get_or_insert_with(|| Nodes::new(n));
-        nodes.part(self.ends[direction], &mut self.work, &mut parts[n]);
+        nodes.part(self.ends[direction], self.level, &mut self.work, &mut parts[n]);
         made[n] = true;
     }
 
@@ -133,7 +135,8 @@ impl Room {
         let Bidegree { s: m, t: n } = f.degree;
         self.make(0, m);
         self.make(1, n);
-        Model::of(&expansion(f, [&self.parts[0][m], &self.parts[1][n]], &mut self.work))
+        let parts = [&self.parts[0][m], &self.parts[1][n]];
+        Model::of(&expansion(f, parts, self.level, &mut self.work))
     }
 
     fn models(&mut self, jet: &Jet) -> [Model; 6] {

@@ -246,6 +246,7 @@ mod tests {
     use crate::inspect::chebyshev::{Nodes, Part, expansion};
     use crate::inspect::doubled::Doubled;
     use crate::inspect::net::Exact;
+    use crate::simd::Level;
 
     /// The model on a box of a polynomial with Bernstein coefficients `f`.
     fn made(f: &[f64], degree: Bidegree, ends: [[f64; 2]; 2]) -> Model {
@@ -254,10 +255,15 @@ mod tests {
         let mut work = Vec::new();
         let [along_s, along_t] = [0, 1].map(|k| {
             let mut part = Part::default();
-            Nodes::new([degree.s, degree.t][k]).part(ends[k], &mut work, &mut part);
+            Nodes::new([degree.s, degree.t][k]).part(
+                ends[k],
+                Level::detect(),
+                &mut work,
+                &mut part,
+            );
             part
         });
-        Model::of(&expansion(&rounded, [&along_s, &along_t], &mut Vec::new()))
+        Model::of(&expansion(&rounded, [&along_s, &along_t], Level::detect(), &mut Vec::new()))
     }
 
     fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -20,7 +20,7 @@ use super::cell::{Bending, Known, check_degree};
 use super::climb::places;
 use super::crosscap::{crosscap, passes};
 use super::glance::glance;
-use super::growth::{Way, unbounded};
+use super::growth::{Way, unbounded_along};
 use super::interval::Interval;
 use super::local::{Form, Local, Room, rounding};
 use super::net::{ExactNet, Nets};
@@ -174,12 +174,7 @@ impl Patches<'_> {
                 let across = [Way::across(x)];
                 let into = Way::into_corner(x);
                 let ways = if is_corner { &into[..] } else { &across[..] };
-                let along = |net: &ExactNet| {
-                    ways.iter().fold([false; 2], |all, way| {
-                        let found = unbounded(net, *way, self.quantity, sign);
-                        [all[0] || found[0], all[1] || found[1]]
-                    })
-                };
+                let along = |net: &ExactNet| unbounded_along(net, ways, self.quantity, sign);
                 let mut found = along(&net);
                 if found == [false; 2]
                     && is_corner
