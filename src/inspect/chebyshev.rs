@@ -133,6 +133,28 @@ impl Kernel for Sums<'_> {
         let (by_s, _) = along_s.to.as_chunks::<BLOCK>();
         let (by_t, _) = along_t.to.as_chunks::<BLOCK>();
         let blocks = rows / BLOCK;
+        if rows == BLOCK && columns == BLOCK {
+            // Degrees up to 3: all of it in registers.
+            let mut sums = [S::F4::splat(0.0); BLOCK];
+            for (row, weights) in f.chunks_exact(count).zip(by_s) {
+                let mut low = S::F4::splat(0.0);
+                for (x, by) in row.iter().zip(by_t) {
+                    low = low + S::F4::splat(*x) * S::F4::load(by);
+                }
+                let (low, weights) = (low.array(), S::F4::load(weights));
+                for j in 0..BLOCK {
+                    sums[j] = sums[j] + S::F4::splat(low[j]) * weights;
+                }
+            }
+            let mut at = [[0.0; ORDER]; ORDER];
+            for j in 0..BLOCK {
+                let sum = sums[j].array();
+                for i in 0..BLOCK {
+                    at[i][j] = sum[i];
+                }
+            }
+            return (at, 0.0);
+        }
         // Coefficient j in t has its coefficients in s from `j * blocks` on.
         work.clear();
         work.resize(ORDER * rows, 0.0);

@@ -57,6 +57,16 @@ fn extraction(knots: &Knots, [start, end]: [f64; 2]) -> Vec<Doubled> {
     matrix
 }
 
+/// A sum of products, of which many are zero.
+fn sum_of(pairs: impl Iterator<Item = (Doubled, Doubled)>) -> Doubled {
+    pairs.fold(
+        Doubled::default(),
+        |sum, (a, b)| {
+            if a.is_zero() || b.is_zero() { sum } else { sum + a * b }
+        },
+    )
+}
+
 /// `2^-e` with `2^e <= x < 2^(e+1)`, for a positive normal number.
 fn power_of_two_over(x: f64) -> f64 {
     1.0 / f64::from_bits(x.to_bits() & 0x7ff0_0000_0000_0000)
@@ -114,8 +124,8 @@ impl<'a> Nets<'a> {
             *size = local.iter().fold(0.0, |m: f64, x| m.max(x.high.abs()));
             for i in 0..=p {
                 for j in 0..=q {
-                    let terms = (0..=p).map(|k| by_u[i * (p + 1) + k] * local[k * (q + 1) + j]);
-                    half[i * (q + 1) + j] = terms.fold(Doubled::default(), |sum, x| sum + x);
+                    half[i * (q + 1) + j] =
+                        sum_of((0..=p).map(|k| (by_u[i * (p + 1) + k], local[k * (q + 1) + j])));
                     half_zeros[i * (q + 1) + j] = (0..=p).all(|k| {
                         by_u[i * (p + 1) + k].is_zero() || local[k * (q + 1) + j].is_zero()
                     });
@@ -123,8 +133,9 @@ impl<'a> Nets<'a> {
             }
             for i in 0..=p {
                 for j in 0..=q {
-                    let terms = (0..=q).map(|k| by_v[j * (q + 1) + k] * half[i * (q + 1) + k]);
-                    poles.push(terms.fold(Doubled::default(), |sum, x| sum + x));
+                    poles.push(sum_of(
+                        (0..=q).map(|k| (by_v[j * (q + 1) + k], half[i * (q + 1) + k])),
+                    ));
                     zeros.push(
                         (0..=q).all(|k| {
                             by_v[j * (q + 1) + k].is_zero() || half_zeros[i * (q + 1) + k]
