@@ -4,7 +4,7 @@
 //!   X_s + l X_t + a X = 0   in homogeneous coordinates: four equations for s, t, l, a
 //! ```
 //!
-//! says that one direction of the parameters does not move the point. Krawczyk's operator proves that there is such a place in a
+//! (or with s and t exchanged) says that one direction of the parameters does not move the point. Krawczyk's operator proves that there is such a place in a
 //! box, and that the matrix of derivatives is regular there. Its determinant is, up to powers of the weight, that of S_y, S_xy and
 //! S_xx, for x the direction that does not move and y another one. When these three span space the patch is a cross-cap:
 //! with n = S_x x S_y and steps h along y
@@ -95,6 +95,23 @@ pub(super) fn crosscap(
     None
 }
 
+/// With s and t exchanged, if they are.
+fn seen<T: Copy>(x: Homogeneous<T>, is_turned: bool) -> Homogeneous<T> {
+    if !is_turned {
+        return x;
+    }
+    std::array::from_fn(|c| {
+        let [f, s, t, ss, st, tt] = x[c];
+        [f, t, s, tt, st, ss]
+    })
+}
+
+/// Whether t moves the point less than s does.
+fn is_turned(x: &Homogeneous<f64>) -> bool {
+    let speed = |k: usize| (0..3).map(move |c| (x[c][k] * x[3][0] - x[c][0] * x[3][k]).powi(2));
+    speed(2).sum::<f64>() < speed(1).sum::<f64>()
+}
+
 /// The equations and their derivatives by s, t, l and a.
 fn equations(x: &Homogeneous<f64>, l: f64, a: f64) -> (Vector4, [Vector4; 4]) {
     let value = std::array::from_fn(|c| x[c][1] + l * x[c][2] + a * x[c][0]);
@@ -121,9 +138,10 @@ fn approached(
     side: Option<usize>,
 ) -> Option<[f64; 2]> {
     let mut at = start;
-    let [mut l, mut a] = multipliers(&form.homogeneous_at(at));
+    let is_turned = is_turned(&form.homogeneous_at(at));
+    let [mut l, mut a] = multipliers(&seen(form.homogeneous_at(at), is_turned));
     for step in 0..STEPS {
-        let (value, rows) = equations(&form.homogeneous_at(at), l, a);
+        let (value, rows) = equations(&seen(form.homogeneous_at(at), is_turned), l, a);
         let inverse = inverted(rows)?;
         let moved: Vector4 =
             std::array::from_fn(|i| (0..4).map(|c| inverse[i][c] * value[c]).sum::<f64>());
@@ -134,7 +152,8 @@ fn approached(
         };
         let mut next = at;
         for k in 0..2 {
-            next[k] = (at[k] - moved[k].clamp(-most(k), most(k))).clamp(area[k][0], area[k][1]);
+            let step = moved[if is_turned { 1 - k } else { k }];
+            next[k] = (at[k] - step.clamp(-most(k), most(k))).clamp(area[k][0], area[k][1]);
         }
         let is_at_rest = (0..2).all(|k| {
             let room = (next[k] - area[k][0]).min(area[k][1] - next[k]);
@@ -181,7 +200,10 @@ fn inverted(rows: [Vector4; 4]) -> Option<[Vector4; 4]> {
 /// Whether there is a cross-cap near a place inside an area: where, then.
 fn proven(form: &Form, area: [[f64; 2]; 2], at: [f64; 2], room: &mut Room) -> Option<[f64; 2]> {
     let point = form.homogeneous_on(at.map(|x| [x; 2]), room);
+    let is_turned = is_turned(&point.map(|row| row.map(Interval::middle)));
+    let point = seen(point, is_turned);
     let middle = point.map(|row| row.map(Interval::middle));
+    let turned = |[a, b]: [f64; 2]| if is_turned { [b, a] } else { [a, b] };
     let [l, a] = multipliers(&middle);
     let (_, rows) = equations(&middle, l, a);
     let inverse = inverted(rows)?;
@@ -194,16 +216,17 @@ fn proven(form: &Form, area: [[f64; 2]; 2], at: [f64; 2], room: &mut Room) -> Op
         std::array::from_fn(|i| (0..4).fold(zero, |sum, c| sum + value[c].times(inverse[i][c])));
     let size = |column: usize| (0..4).map(|c| rows[c][column].abs()).sum::<f64>();
     SHARES.iter().find_map(|share| {
-        let [r, q] = [0, 1].map(|k| share * (at[k] - area[k][0]).min(area[k][1] - at[k]));
-        let turned = 4.0 * (size(0) * r + size(1) * q);
-        let radii = [r, q, turned / size(2), turned / size(3)];
+        let [r, q] = turned([0, 1].map(|k| share * (at[k] - area[k][0]).min(area[k][1] - at[k])));
+        let change = 4.0 * (size(0) * r + size(1) * q);
+        let radii = [r, q, change / size(2), change / size(3)];
         let radii = [0, 1, 2, 3].map(|k| radii[k].max(4.0 * moved[k].magnitude()));
-        let ends = [0, 1].map(|k| [at[k] - radii[k], at[k] + radii[k]]);
+        let around = turned([radii[0], radii[1]]);
+        let ends = [0, 1].map(|k| [at[k] - around[k], at[k] + around[k]]);
         let is_inside = (0..2).all(|k| area[k][0] < ends[k][0] && ends[k][1] < area[k][1]);
         if !is_inside {
             return None;
         }
-        let x = form.homogeneous_on(ends, room);
+        let x = seen(form.homogeneous_on(ends, room), is_turned);
         let (l, a) = (Interval::around(l, radii[2]), Interval::around(a, radii[3]));
         let matrix: [[Interval; 4]; 4] = std::array::from_fn(|c| {
             let [f, s, t, ss, st, tt] = x[c];
