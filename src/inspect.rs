@@ -14,11 +14,11 @@ mod polynomial;
 
 mod doubled;
 
+mod net;
+
 mod chebyshev;
 
 mod model;
-
-mod net;
 
 mod cell;
 

@@ -257,6 +257,21 @@ mod tests {
     }
 
     #[test]
+    fn weights_are_balanced_by_the_nearest_power_of_two() {
+        for degree in 1..=5 {
+            for ratio in [1.0, 0.98, 1.02, 0.75, 1.3] {
+                assert_eq!(balance_for(ratio, degree), 1.0, "{ratio} {degree}");
+            }
+            for steps in [-6, -1, 1, 8] {
+                let ratio = 2.0f64.powi(steps * degree as i32);
+                for near in [0.9 * ratio, ratio, 1.1 * ratio] {
+                    assert_eq!(balance_for(near, degree), 2.0f64.powi(-steps), "{near} {degree}");
+                }
+            }
+        }
+    }
+
+    #[test]
     fn tensors_of_a_segment_give_the_squared_distance() {
         let degree = Bidegree { s: 0, t: 1 };
         let net = [0.0, 2.0, 1.0, 1.0, 0.0, 0.0];

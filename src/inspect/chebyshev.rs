@@ -76,9 +76,12 @@ impl Nodes {
     pub fn part(&self, [a, b]: [f64; 2], level: Level, work: &mut Vec<f64>, out: &mut Part) {
         let (count, columns) = (self.at.len(), self.columns);
         let n = count - 1;
-        work.clear();
-        work.resize((2 + count) * count, 0.0);
-        let (up, rest) = work.split_at_mut(count);
+        // Everything is written before it is read.
+        let needed = (2 + count) * count;
+        if work.len() < needed {
+            work.resize(needed, 0.0);
+        }
+        let (up, rest) = work[..needed].split_at_mut(count);
         let (down, values) = rest.split_at_mut(count);
         for (j, &[share, rest]) in self.at.iter().enumerate() {
             powers(a + (b - a) * share, up);
@@ -90,10 +93,12 @@ impl Nodes {
         out.columns = columns;
         out.to.resize(count * columns, 0.0);
         level.run(Cosines { nodes: self, values, to: &mut out.to });
+        // Not below the greatest values in spite of rounding, nor are sums of products with them.
+        let up = 1.0 + (8 * n + 64) as f64 * HALF_ULP;
         out.peaks.clear();
         out.peaks.extend((0..count).map(|k| {
             let top = if n == 0 { a } else { (k as f64 / n as f64).clamp(a, b) };
-            self.binomials[k] * top.powi(k as i32) * (1.0 - top).powi((n - k) as i32)
+            up * self.binomials[k] * top.powi(k as i32) * (1.0 - top).powi((n - k) as i32)
         }));
     }
 }

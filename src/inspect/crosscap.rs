@@ -23,7 +23,7 @@
 //! Limit: places in the inside of a patch; at sides and corners see [`super::growth`].
 
 use super::interval::Interval;
-use super::local::{Form, Room};
+use super::local::{Form, Homogeneous, Room};
 use super::request::Quantity;
 
 /// Starts along each direction of a box.
@@ -38,9 +38,6 @@ const STEPS: usize = 24;
 const SHARES: [f64; 5] = [0.1, 1e-2, 1e-3, 1e-5, 1e-8];
 
 type Vector4 = [f64; 4];
-
-/// The point and its derivatives by s, t, ss, st and tt, homogeneous.
-pub(super) type Homogeneous<T> = [[T; 6]; 4];
 
 /// Below and above every number, as a quantity passes them beside a cross-cap.
 pub(super) fn passes(quantity: Quantity) -> [bool; 2] {

@@ -17,7 +17,6 @@
 
 use super::cell::Known;
 use super::chebyshev::{Nodes, Part, bernstein, expansion};
-use super::crosscap::Homogeneous;
 use super::doubled::{Doubled, UNIT};
 use super::interval::Interval;
 use super::model::Model;
@@ -39,6 +38,9 @@ const WRITTEN: f64 = 2e-14;
 pub(super) fn rounding(magnitude: f64) -> f64 {
     ROUNDING.max(WRITTEN * magnitude)
 }
+
+/// The point and its derivatives by s, t, ss, st and tt: x, y, z and the weight.
+pub(super) type Homogeneous<T> = [[T; 6]; 4];
 
 /// A polynomial and its derivatives by s, t, ss, st and tt.
 struct Jet([Rounded; 6]);
