@@ -935,7 +935,7 @@ typedef enum fpt_inspect_kind {
      */
     FPT_PLACE_UMBILIC_AREA = 7,
     /**
-     * A box that a range excludes and in which the quantity has no bound, proven: a tip, a cusp.
+     * A box that a range excludes and in which the quantity has no bound, proven: a tip, a cusp, a cross-cap (partials that are parallel).
      */
     FPT_PLACE_UNBOUNDED = 8,
     /**

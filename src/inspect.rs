@@ -14,15 +14,19 @@ mod polynomial;
 
 mod doubled;
 
-mod model;
-
 mod net;
+
+mod chebyshev;
+
+mod model;
 
 mod cell;
 
 mod request;
 
 mod local;
+
+mod crosscap;
 
 mod growth;
 

@@ -78,7 +78,7 @@ pub enum fpt_inspect_kind {
     FPT_PLACE_UMBILIC = 6,
     /// A large such box: a line or an area of umbilics, or the budget ran out.
     FPT_PLACE_UMBILIC_AREA = 7,
-    /// A box that a range excludes and in which the quantity has no bound, proven: a tip, a cusp.
+    /// A box that a range excludes and in which the quantity has no bound, proven: a tip, a cusp, a cross-cap (partials that are parallel).
     FPT_PLACE_UNBOUNDED = 8,
     /// A box that a range excludes and of which nothing is proven.
     FPT_PLACE_EXCLUDED = 9,

@@ -164,9 +164,11 @@ pub fn parts_for(ratio: f64) -> usize {
 }
 
 /// The power of two that balances weights whose ends differ by `ratio` (last over first) in degree `degree`.
+///
+/// The nearest one: weights of 1 and 0.98 are balanced as they are.
 pub fn balance_for(ratio: f64, degree: usize) -> f64 {
     let exponent = |x: f64| ((x.to_bits() >> 52) & 0x7ff) as i64 - 1023;
-    let steps = exponent(ratio).clamp(-600, 600);
+    let steps = exponent(ratio * std::f64::consts::SQRT_2).clamp(-600, 600);
     let each = (steps.abs() + degree as i64 / 2) / degree as i64;
     let each = (each.min(900 / degree as i64) as i32) * steps.signum() as i32;
     // The map's factor undoes the growth.
@@ -257,6 +259,21 @@ mod tests {
             assert_eq!(s.to_bits() & 0x000f_ffff_ffff_ffff, 0);
         }
         assert_eq!(power_of_two_over(0.0), 1.0);
+    }
+
+    #[test]
+    fn weights_are_balanced_by_the_nearest_power_of_two() {
+        for degree in 1..=5 {
+            for ratio in [1.0, 0.98, 1.02, 0.75, 1.3] {
+                assert_eq!(balance_for(ratio, degree), 1.0, "{ratio} {degree}");
+            }
+            for steps in [-6, -1, 1, 8] {
+                let ratio = 2.0f64.powi(steps * degree as i32);
+                for near in [0.9 * ratio, ratio, 1.1 * ratio] {
+                    assert_eq!(balance_for(near, degree), 2.0f64.powi(-steps), "{near} {degree}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -22,6 +22,7 @@ use super::interval::Interval;
 use super::polynomial::Polynomial;
 use super::slope::Slope;
 use crate::bezier::{Bidegree, MAX_TRIPLE};
+use crate::bounds::HALF_ULP;
 use crate::error::Error;
 
 /// A Bezier piece: homogeneous poles component by component, of which coordinates are off by at most `error` times the
@@ -298,8 +299,8 @@ impl Shape {
         let half = (self.a - self.d).times(0.5);
         let root = (half.squared() + self.b.squared()).sqrt();
         let mean = self.mean();
-        let middle = self.eigenvalues(|slope| slope.middle);
-        let range = self.eigenvalues(|slope| slope.range);
+        let of = |f: fn(&Slope<2>) -> Interval| eigenvalues([&self.a, &self.b, &self.d].map(f));
+        let (middle, range) = (of(|slope| slope.middle), of(|slope| slope.range));
         let sides = [mean + root, mean - root].map(Known::from);
         [0, 1].map(|k| Known {
             middle: sides[k].middle.and(middle[k]),
@@ -318,30 +319,31 @@ impl Shape {
         })
     }
 
-    /// What the entries alone tell about the eigenvalues: both grow with a and d; the greater grows with |b|, the other
-    /// falls.
-    fn eigenvalues(&self, of: impl Fn(&Slope<2>) -> Interval) -> [Interval; 2] {
-        let (a, b, d) = (of(&self.a), of(&self.b), of(&self.d));
-        let point = Interval::point;
-        let pair = |a: f64, b: f64, d: f64| {
-            let (sum, half) = ((point(a) + point(d)).times(0.5), (point(a) - point(d)).times(0.5));
-            let root = (half.squared() + point(b).squared()).sqrt();
-            [sum + root, sum - root]
-        };
-        let (most, least) = (b.magnitude(), b.least_magnitude());
-        let greater = Interval {
-            low: pair(a.low, least, d.low)[0].low,
-            high: pair(a.high, most, d.high)[0].high,
-        };
-        let less = Interval {
-            low: pair(a.low, most, d.low)[1].low,
-            high: pair(a.high, least, d.high)[1].high,
-        };
-        [greater, less]
-    }
-
     /// Whether equal principal curvatures somewhere on the box cannot be excluded.
     pub fn may_be_umbilic(&self) -> bool {
         self.b.range.holds_zero() && (self.a - self.d).range.holds_zero()
     }
+}
+
+/// The eigenvalues of `[[a, b], [b, d]]`, the greater one and the less, from what is known of the entries: both grow with a and
+/// d; the greater grows with |b|, the other falls.
+///
+/// Rounding: the sum, the difference and the root are off by no more than 8 half ulps of the entries; a square that underflows by
+/// less than 1e-150.
+pub(super) fn eigenvalues([a, b, d]: [Interval; 3]) -> [Interval; 2] {
+    let pair = |a: f64, b: f64, d: f64| {
+        let (mean, half) = (0.5 * a + 0.5 * d, 0.5 * a - 0.5 * d);
+        let root = (half * half + b * b).sqrt();
+        let error = 8.0 * HALF_ULP * (a.abs() + b.abs() + d.abs()) + 1e-150;
+        (mean, root, error)
+    };
+    let (most, least) = (b.magnitude(), b.least_magnitude());
+    let sides = [pair(a.low, least, d.low), pair(a.high, most, d.high)];
+    let others = [pair(a.low, most, d.low), pair(a.high, least, d.high)];
+    let greater = (sides[0].0 + sides[0].1 - sides[0].2, sides[1].0 + sides[1].1 + sides[1].2);
+    let less = (others[0].0 - others[0].1 - others[0].2, others[1].0 - others[1].1 + others[1].2);
+    [greater, less].map(|(low, high)| {
+        let is_known = !(low.is_nan() || high.is_nan());
+        if is_known { Interval { low, high } } else { Interval::ENTIRE }
+    })
 }

@@ -15,6 +15,9 @@ const CLIMBS: usize = 3;
 /// Least step of a climb in a piece's parameters.
 const LEAST_STEP: f64 = 1e-5;
 
+/// Pieces at most that are sampled.
+const MOST_PIECES: usize = 1_000;
+
 /// Samples a direction and piece.
 fn density(pieces: usize) -> usize {
     match pieces {
@@ -49,7 +52,8 @@ pub(super) fn places(
     let count = density(starts.len());
     let mut samples: Vec<(f64, usize, [f64; 2])> = Vec::with_capacity(starts.len());
     // The best two samples of each piece: the least and the greatest.
-    for (n, &(k, s, t)) in starts.iter().enumerate() {
+    let stride = starts.len().div_ceil(MOST_PIECES).max(1);
+    for (n, &(k, s, t)) in starts.iter().enumerate().step_by(stride) {
         for i in 0..count {
             for j in 0..count {
                 let on = |[a, b]: [f64; 2], i: usize| a + (b - a) * (i as f64 + 0.5) / count as f64;

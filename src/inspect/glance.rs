@@ -1,62 +1,72 @@
 //! What the hulls of its derivatives tell about the curvatures of a patch: little, at little cost.
 
-use super::cell::{Piece, Shape};
+use super::cell::Piece;
 use super::interval::Interval;
-use super::slope::Slope;
 use crate::bounds::{HALF_ULP, Vector, add, cross, dot, norm, scaled, sub};
 
-/// A function of which only the range is known.
-fn ranging(range: Interval) -> Slope<2> {
-    let entire = Interval::ENTIRE;
-    Slope { middle: entire, range, gradient: [entire; 2] }
-}
+/// Hulls of the derivatives by s, t, ss, st and tt, without the degrees' factors.
+struct Hulls([[Interval; 3]; 5]);
 
-/// Sums of the differences of a net of vectors in one direction, as a net.
-fn differences(net: &[Vector], width: usize, along_s: bool) -> Vec<Vector> {
-    if along_s {
-        return net.iter().zip(&net[width..]).map(|(a, b)| sub(*b, *a)).collect();
+/// The least box that holds all vectors of a family.
+fn hull(vectors: impl Iterator<Item = Vector>, error: f64) -> [Interval; 3] {
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for x in vectors {
+        for c in 0..3 {
+            low[c] = if x[c] < low[c] { x[c] } else { low[c] };
+            high[c] = if x[c] > high[c] { x[c] } else { high[c] };
+        }
     }
-    let rows = net.chunks_exact(width);
-    rows.flat_map(|row| row.windows(2).map(|pair| sub(pair[1], pair[0]))).collect()
+    [0, 1, 2].map(|c| Interval { low: low[c] - error, high: high[c] + error })
 }
 
-/// The shape operator over a whole polynomial patch; none when the hulls do not exclude a singularity, for rational patches and
-/// degrees below 2.
-pub(super) fn glance(piece: &Piece) -> Option<Shape> {
+impl Hulls {
+    /// Of a net with `width` columns, each coordinate off by at most `error`.
+    fn new(net: &[Vector], width: usize, error: f64) -> Self {
+        let (below, rows) = (&net[width..], || net.chunks_exact(width));
+        let first = |a: &Vector, b: &Vector| sub(*b, *a);
+        let second = |a: &Vector, b: &Vector, c: &Vector| sub(sub(*c, *b), sub(*b, *a));
+        let by_s = net.iter().zip(below).map(|(a, b)| first(a, b));
+        let by_t = rows().flat_map(|row| row.windows(2).map(|x| first(&x[0], &x[1])));
+        let by_ss = net.iter().zip(below).zip(&net[2 * width..]).map(|((a, b), c)| second(a, b, c));
+        let pairs = rows().zip(below.chunks_exact(width));
+        let by_st = pairs.flat_map(|(a, b)| {
+            a.windows(2).zip(b.windows(2)).map(|(a, b)| sub(sub(b[1], b[0]), sub(a[1], a[0])))
+        });
+        let by_tt = rows().flat_map(|row| row.windows(3).map(|x| second(&x[0], &x[1], &x[2])));
+        Self([
+            hull(by_s, 4.0 * error),
+            hull(by_t, 4.0 * error),
+            hull(by_ss, 8.0 * error),
+            hull(by_st, 8.0 * error),
+            hull(by_tt, 8.0 * error),
+        ])
+    }
+}
+
+/// The entries a, b, d of the shape operator over a whole polynomial patch; none when the hulls do not exclude a singularity, for
+/// rational patches and degrees below 2. `net` is scratch memory.
+pub(super) fn glance(piece: &Piece, net: &mut Vec<Vector>) -> Option<[Interval; 3]> {
     let (p, q) = (piece.degree.s, piece.degree.t);
     if piece.rational || p < 2 || q < 2 {
         return None;
     }
     let count = piece.degree.count();
     let at = |c: usize, k: usize| piece.poles[c * count + k];
-    let net: Vec<Vector> = (0..count).map(|k| [at(0, k), at(1, k), at(2, k)]).collect();
-    let size = net.iter().map(|x| norm(*x)).fold(0.0, f64::max);
-    let by_s = differences(&net, q + 1, true);
-    let by_t = differences(&net, q + 1, false);
-    let seconds = [
-        differences(&by_s, q + 1, true),
-        differences(&by_s, q + 1, false),
-        differences(&by_t, q, false),
-    ];
-    let sum = |net: &[Vector]| net.iter().fold([0.0; 3], |sum, x| add(sum, *x));
-    let (along, side) = (sum(&by_s), sum(&by_t));
-    let up = cross(along, side);
+    net.clear();
+    net.extend((0..count).map(|k| [at(0, k), at(1, k), at(2, k)]));
+    let size = net.iter().map(|x| dot(*x, *x)).fold(0.0, f64::max).sqrt();
+    let sum = |points: &mut dyn Iterator<Item = &Vector>| points.fold([0.0; 3], |a, x| add(a, *x));
+    let (width, last) = (q + 1, count - q - 1);
+    let along = sub(sum(&mut net[last..].iter()), sum(&mut net[..width].iter()));
+    let ends = [q, 0].map(|k| sum(&mut net[k..].iter().step_by(width)));
+    let up = cross(along, sub(ends[0], ends[1]));
     let unit = |a: Vector| Some(scaled(a, 1.0 / norm(a))).filter(|a| norm(*a) > 0.5);
     let (first, third) = (unit(along)?, unit(up)?);
     let axes = [first, cross(third, first), third];
-    let error = piece.error + 32.0 * HALF_ULP * size;
-    let range = |net: &[Vector], factor: usize, differences: f64| {
-        let factor = factor as f64;
-        axes.map(|axis| {
-            let nothing = (f64::INFINITY, f64::NEG_INFINITY);
-            let (low, high) = net.iter().map(|x| dot(*x, axis)).fold(nothing, |(low, high), x| {
-                (if x < low { x } else { low }, if x > high { x } else { high })
-            });
-            let error = differences * error;
-            Interval { low: factor * (low - error), high: factor * (high + error) }
-        })
-    };
-    let (s, t) = (range(&by_s, p, 4.0), range(&by_t, q, 4.0));
+    net.iter_mut().for_each(|x| *x = axes.map(|axis| dot(*x, axis)));
+    let Hulls(hulls) = Hulls::new(net, width, piece.error + 32.0 * HALF_ULP * size);
+    let times = |k: usize, factor: usize| hulls[k].map(|x| x.times(factor as f64));
+    let (s, t) = (times(0, p), times(1, q));
     let product = |a: [Interval; 3], b: [Interval; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let square = |a: [Interval; 3]| a[0].squared() + a[1].squared() + a[2].squared();
     let minor = |i: usize, j: usize| s[i] * t[j] - s[j] * t[i];
@@ -65,15 +75,11 @@ pub(super) fn glance(piece: &Piece) -> Option<Shape> {
     if e.low <= 0.0 || area.low <= 0.0 {
         return None;
     }
-    let bent = |net: &[Vector], factor: usize| product(normal, range(net, factor, 8.0));
-    let l = bent(&seconds[0], p * (p - 1));
-    let m = bent(&seconds[1], p * q);
-    let n = bent(&seconds[2], q * (q - 1));
+    let l = product(normal, times(2, p * (p - 1)));
+    let m = product(normal, times(3, p * q));
+    let n = product(normal, times(4, q * (q - 1)));
     let (root, ratio) = (area.sqrt(), f / e);
     let sheared = m - ratio * l;
-    Some(Shape {
-        a: ranging(l / (root * e)),
-        b: ranging(sheared / area),
-        d: ranging(e * (n - ratio * (m + sheared)) / (area * root)),
-    })
+    let d = e * (n - ratio * (m + sheared)) / (area * root);
+    Some([l / (root * e), sheared / area, d])
 }

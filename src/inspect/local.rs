@@ -15,17 +15,17 @@
 //!   l / t^3 = n1 x_ss + n2 y_ss + n3 z_ss      m / t^2 = n1 S_st.x + n2 S_st.y + n3 (2 z_s + t z_st)
 //! ```
 
-use super::cell::{Known, Shape};
+use super::cell::Known;
+use super::chebyshev::{Nodes, Part, bernstein, expansion};
 use super::doubled::{Doubled, UNIT};
 use super::interval::Interval;
-use super::model::{Model, Table};
-use super::net::{Exact, ExactNet, Nets};
-use super::polynomial::Polynomial;
-use super::request::{Quantity, known};
-use super::slope::Slope;
-use crate::bezier::{Bidegree, cut};
+use super::model::Model;
+use super::net::{Exact, ExactNet, Nets, Rounded};
+use super::request::{Quantity, of_entries, sharper};
+use crate::bezier::Bidegree;
 use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, scaled};
 use crate::index::SurfaceIndex;
+use crate::simd::Level;
 
 /// Greatest distance of the poles next to a pole from a plane that counts as rounding, for a box diagonal of 1 to 2.
 const ROUNDING: f64 = 2e-13;
@@ -34,8 +34,16 @@ const ROUNDING: f64 = 2e-13;
 /// some times that.
 const WRITTEN: f64 = 2e-14;
 
+/// What counts as rounding, for a greatest coordinate.
+pub(super) fn rounding(magnitude: f64) -> f64 {
+    ROUNDING.max(WRITTEN * magnitude)
+}
+
+/// The point and its derivatives by s, t, ss, st and tt: x, y, z and the weight.
+pub(super) type Homogeneous<T> = [[T; 6]; 4];
+
 /// A polynomial and its derivatives by s, t, ss, st and tt.
-struct Jet([Polynomial; 6]);
+struct Jet([Rounded; 6]);
 
 impl Jet {
     fn new(f: &Exact) -> Self {
@@ -52,7 +60,7 @@ impl Jet {
 }
 
 /// A patch in the coordinates in which its curvatures are formed.
-struct Form {
+pub(super) struct Form {
     position: [Jet; 3],
     weight: Option<Jet>,
     /// The side that is a smooth pole; its parameters are turned so that it is t = 0.
@@ -65,17 +73,22 @@ pub(super) struct Local {
     forms: Vec<Form>,
     /// How far the patch was moved to be flat at its poles.
     pub moved: f64,
+    /// For each side that is not exactly a point, the share of the patch from it on which the patch is no wider than the side is
+    /// long; 1 for the others.
+    pub short: [f64; 4],
 }
 
-/// What all boxes share, and the matrices that cut nets to the present one.
+/// What all boxes share, and the Bernstein polynomials on the present one.
 #[derive(Default)]
 pub(super) struct Room {
-    tables: Vec<Option<Table>>,
+    nodes: Vec<Option<Nodes>>,
     ends: [[f64; 2]; 2],
-    /// By direction and degree; empty: not made yet.
-    cuts: [Vec<Vec<f64>>; 2],
-    half: Vec<f64>,
-    cut: Vec<f64>,
+    /// By direction and degree.
+    parts: [Vec<Part>; 2],
+    /// Which of them are those of the present box.
+    made: [Vec<bool>; 2],
+    work: Vec<f64>,
+    level: Level,
 }
 
 /// The shape operator on a box.
@@ -92,69 +105,40 @@ struct Derivatives {
 }
 
 impl Room {
-    fn table(&mut self, n: usize) {
-        if self.tables.len() <= n {
-            self.tables.resize(n + 1, None);
-        }
-        if self.tables[n].is_none() {
-            self.tables[n] = Some(Table::new(n));
-        }
-    }
-
     /// Begins with a box.
     fn begin(&mut self, ends: [[f64; 2]; 2]) {
-        if ends != self.ends {
-            self.cuts.iter_mut().flatten().for_each(Vec::clear);
-            self.ends = ends;
+        for direction in 0..2 {
+            if ends[direction] != self.ends[direction] {
+                self.made[direction].fill(false);
+            }
         }
+        self.ends = ends;
     }
 
-    /// Makes the matrix that cuts a net of degree n in one direction: row k has the weights of coefficient k in all new ones.
-    fn matrix(&mut self, direction: usize, n: usize) {
-        let cuts = &mut self.cuts[direction];
-        if cuts.len() <= n {
-            cuts.resize(n + 1, Vec::new());
+    /// Makes the polynomials of degree n on the box in one direction.
+    fn make(&mut self, direction: usize, n: usize) {
+        let (parts, made) = (&mut self.parts[direction], &mut self.made[direction]);
+        if parts.len() <= n {
+            parts.resize(n + 1, Part::default());
+            made.resize(n + 1, false);
         }
-        if !cuts[n].is_empty() {
+        if made[n] {
             return;
         }
-        // The cut of the unit vectors, all at once, is its transpose.
-        let (width, [a, b]) = (n + 1, self.ends[direction]);
-        let mut all: Vec<f64> =
-            (0..width * width).map(|k| f64::from(u8::from(k % (width + 1) == 0))).collect();
-        cut(&mut all, n, width, width, a, b);
-        cuts[n].extend((0..width * width).map(|k| all[k % width * width + k / width]));
+        if self.nodes.len() <= n {
+            self.nodes.resize(n + 1, None);
+        }
+        let nodes = self.nodes[n].get_or_insert_with(|| Nodes::new(n));
+        nodes.part(self.ends[direction], self.level, &mut self.work, &mut parts[n]);
+        made[n] = true;
     }
 
-    /// Rounding: entries of a matrix are off by 8 half ulps a degree, the sum by one a term.
-    fn model(&mut self, f: &Polynomial) -> Model {
+    fn model(&mut self, f: &Rounded) -> Model {
         let Bidegree { s: m, t: n } = f.degree;
-        self.table(m);
-        self.table(n);
-        self.matrix(0, m);
-        self.matrix(1, n);
-        let width = n + 1;
-        let (by_s, by_t) = (&self.cuts[0][m], &self.cuts[1][n]);
-        self.half.clear();
-        self.half.resize(f.coefficients.len(), 0.0);
-        let rows = f.coefficients.chunks_exact(width);
-        for (row, out) in rows.zip(self.half.chunks_exact_mut(width)) {
-            for (x, weights) in row.iter().zip(by_t.chunks_exact(width)) {
-                out.iter_mut().zip(weights).for_each(|(out, weight)| *out += x * weight);
-            }
-        }
-        self.cut.clear();
-        self.cut.resize(f.coefficients.len(), 0.0);
-        for (row, weights) in self.half.chunks_exact(width).zip(by_s.chunks_exact(m + 1)) {
-            for (out, weight) in self.cut.chunks_exact_mut(width).zip(weights) {
-                out.iter_mut().zip(row).for_each(|(out, x)| *out += weight * x);
-            }
-        }
-        let error = f.error + (10 * (m + n) + 16) as f64 * HALF_ULP * f.size();
-        let (Some(along_s), Some(along_t)) = (&self.tables[m], &self.tables[n]) else {
-            return Model { c: [0.0; 10], rest: f64::INFINITY };
-        };
-        Model::of(&self.cut, f.degree, error, [along_s, along_t])
+        self.make(0, m);
+        self.make(1, n);
+        let parts = [&self.parts[0][m], &self.parts[1][n]];
+        Model::of(&expansion(f, parts, self.level, &mut self.work))
     }
 
     fn models(&mut self, jet: &Jet) -> [Model; 6] {
@@ -187,7 +171,8 @@ fn quotient(f: &[Model; 6], w: &[Model; 6], inverse: &Model) -> [Model; 6] {
 }
 
 impl Form {
-    fn new(net: &ExactNet) -> Self {
+    /// Of a net as it is.
+    pub fn new(net: &ExactNet) -> Self {
         let of = |c: usize| Jet::of(net, c);
         let weight = net.rational.then(|| of(3));
         Self { position: [of(0), of(1), of(2)], weight, pole: None, is_mirrored: false }
@@ -218,7 +203,7 @@ impl Form {
         let across = cross(third, along);
         let axes = [along, scaled(across, 1.0 / norm(across)), third];
         let gap = ways.iter().map(|way| dot(*way, third).abs()).fold(0.0, f64::max);
-        if gap.is_nan() || gap > ROUNDING.max(WRITTEN * nets.magnitude()) {
+        if gap.is_nan() || gap > rounding(nets.magnitude()) {
             return None;
         }
         // The axes are unit vectors and normal to each other up to rounding: that much the patch is sheared.
@@ -265,6 +250,35 @@ impl Form {
             Some(3) => [s, back(t)],
             _ => [s, t],
         }
+    }
+
+    /// The point and its derivatives in homogeneous coordinates over a box; of a form as its net is.
+    pub fn homogeneous_on(&self, ends: [[f64; 2]; 2], room: &mut Room) -> Homogeneous<Interval> {
+        room.begin(ends);
+        let point = Interval::point;
+        let [x, y, z] = [0, 1, 2].map(|c| room.models(&self.position[c]).map(|f| f.range()));
+        let weight = match &self.weight {
+            Some(weight) => room.models(weight).map(|f| f.range()),
+            None => [1.0, 0.0, 0.0, 0.0, 0.0, 0.0].map(point),
+        };
+        [x, y, z, weight]
+    }
+
+    /// The same at a place, without bounds.
+    pub fn homogeneous_at(&self, [s, t]: [f64; 2]) -> Homogeneous<f64> {
+        let Bidegree { s: m, t: n } = self.position[0].0[0].degree;
+        let bases = |n: usize, x: f64| (0..3).map(|k| bernstein(n.saturating_sub(k), x)).collect();
+        let [by_s, by_t]: [Vec<Vec<f64>>; 2] = [bases(m, s), bases(n, t)];
+        let value = |f: &Rounded| {
+            let (by_s, by_t) = (&by_s[m - f.degree.s], &by_t[n - f.degree.t]);
+            let row = |row: &[f64]| row.iter().zip(by_t).map(|(x, b)| x * b).sum::<f64>();
+            let rows = f.coefficients.chunks_exact(f.degree.t + 1).zip(by_s);
+            rows.map(|(values, b)| b * row(values)).sum::<f64>()
+        };
+        let of = |jet: &Jet| std::array::from_fn(|k| value(&jet.0[k]));
+        let [x, y, z] = [0, 1, 2].map(|c| of(&self.position[c]));
+        let weight = self.weight.as_ref().map_or([1.0, 0.0, 0.0, 0.0, 0.0, 0.0], of);
+        [x, y, z, weight]
     }
 
     fn derivatives(&self, room: &mut Room) -> Option<Derivatives> {
@@ -388,13 +402,11 @@ impl Operator {
     fn known(&self, quantity: Quantity, sign: f64) -> Known {
         let Self { a, b, d } = self;
         let (a, b, d) = (a.scaled(sign), b.scaled(sign), d.scaled(sign));
-        let slope = |f: &Model| Slope {
-            middle: f.middle(),
-            range: f.range(),
-            gradient: [Interval::ENTIRE; 2],
-        };
-        let plain = known(&Shape { a: slope(&a), b: slope(&b), d: slope(&d) }, quantity);
-        let better = |range: Interval| Known { range: plain.range.and(range), ..plain };
+        let entries = [&a, &b, &d];
+        let middle = of_entries(entries.map(Model::middle), quantity);
+        let plain = of_entries(entries.map(Model::range), quantity);
+        let gradient = [Interval::ENTIRE; 2];
+        let better = |range: Interval| Known { middle, range: plain.and(range), gradient };
         let mean = a.plus(&d).scaled(0.5);
         if quantity == Quantity::Mean {
             return better(mean.range());
@@ -413,10 +425,7 @@ impl Operator {
         match quantity {
             Quantity::Greater => better(greater),
             Quantity::Less => better(less),
-            _ => better(Interval {
-                low: greater.least_magnitude().max(less.least_magnitude()),
-                high: greater.magnitude().max(less.magnitude()),
-            }),
+            _ => better(sharper(greater, less)),
         }
     }
 }
@@ -437,12 +446,13 @@ impl Local {
                 // What was moved at one pole is off at the other.
                 let made = if made.len() > 1 { poles(nets, moved) } else { Some(made) };
                 let forms = made.into_iter().flatten().map(|made| made.0).collect();
-                return Self { forms, moved };
+                return Self { forms, moved, short: [1.0; 4] };
             }
         }
         let exact = nets.net(k, [0.5; 2]);
         let origin = exact.point(exact.degree.count() / 2);
-        Self { forms: vec![Form::new(&exact.about(origin))], moved: 0.0 }
+        let exact = exact.about(origin);
+        Self { forms: vec![Form::new(&exact)], moved: 0.0, short: exact.short_sides() }
     }
 
     /// Whether what is singular at its collapsed sides is divided out.

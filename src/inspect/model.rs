@@ -14,15 +14,12 @@
 //! References: Berz, Hoffstaetter, *Computation and application of Taylor polynomials with interval remainder bounds*, 1998;
 //! Lanczos, *Applied Analysis*, 1956 (economization).
 
+use super::chebyshev::{Expansion, ORDER};
 use super::interval::Interval;
-use crate::bezier::{Bidegree, binomial};
 use crate::bounds::HALF_ULP;
 
 /// Coefficients of a model.
 const COUNT: usize = 10;
-
-/// Degrees that a net is first brought to in each direction, plus one.
-const ORDER: usize = 5;
 
 /// Rounding of a sum of products of coefficients, relative to the product of the sums of absolute ones.
 const ROUNDING: f64 = 20.0 * HALF_ULP;
@@ -40,58 +37,25 @@ pub(super) struct Model {
     pub rest: f64,
 }
 
-/// Matrices between Bernstein coefficients of a degree and Chebyshev coefficients up to degree 4.
-#[derive(Clone, Debug)]
-pub(super) struct Table {
-    /// `to[k]`: weights of Bernstein coefficient k in the Chebyshev coefficients.
-    to: Vec<[f64; ORDER]>,
-    /// `from[k]`: Bernstein coefficient k of the Chebyshev polynomials.
-    from: Vec<[f64; ORDER]>,
-}
-
-impl Table {
-    /// For degree n: the projection by Legendre polynomials, exact up to degree 4.
-    pub fn new(n: usize) -> Self {
-        // Legendre coefficients: (2 i + 1) times the integral of a Bernstein polynomial and a Legendre polynomial.
-        let legendre = |i: usize, k: usize| {
-            let term = |j: usize| {
-                let sign = if (i + j).is_multiple_of(2) { 1.0 } else { -1.0 };
-                sign * binomial(i, j) * binomial(i, j) / binomial(n + i, k + j)
-            };
-            let sum: f64 = (0..=i).map(term).sum();
-            if i > n { 0.0 } else { (2 * i + 1) as f64 * binomial(n, k) * sum / (n + i + 1) as f64 }
-        };
-        let chebyshev = |i: usize, k: usize| match i {
-            0 => legendre(0, k) + 0.25 * legendre(2, k) + 9.0 / 64.0 * legendre(4, k),
-            1 => legendre(1, k) + 0.375 * legendre(3, k),
-            2 => 0.75 * legendre(2, k) + 0.3125 * legendre(4, k),
-            3 => 0.625 * legendre(3, k),
-            _ => 35.0 / 64.0 * legendre(4, k),
-        };
-        // The polar form of x^i in k ones and n - k minus ones, by Newton's identities.
-        let power = |i: usize, k: usize| {
-            let (s, m) = (2.0 * k as f64 - n as f64, n as f64);
-            let e2 = (s * s - m) / 2.0;
-            let e3 = (s * s * s - 3.0 * s * m + 2.0 * s) / 6.0;
-            let e4 = (s * e3 - m * e2 + s * s - m) / 4.0;
-            if i > n { 0.0 } else { [1.0, s, e2, e3, e4][i] / binomial(n, i) }
-        };
-        let polynomial = |i: usize, k: usize| match i {
-            _ if i > n => 0.0,
-            0 | 1 => power(i, k),
-            2 => 2.0 * power(2, k) - 1.0,
-            3 => 4.0 * power(3, k) - 3.0 * power(1, k),
-            _ => 8.0 * power(4, k) - 8.0 * power(2, k) + 1.0,
-        };
-        Self {
-            to: (0..=n).map(|k| std::array::from_fn(|i| chebyshev(i, k))).collect(),
-            from: (0..=n).map(|k| std::array::from_fn(|i| polynomial(i, k))).collect(),
-        }
+/// The cubic part of a sum of products of Chebyshev polynomials, and what the others may come to.
+fn economised(at: &[[f64; ORDER]; ORDER]) -> ([f64; COUNT], f64) {
+    let mut dropped = 0.0;
+    for i in 0..ORDER {
+        (ORDER - 1 - i..ORDER).for_each(|j| dropped += at[i][j].abs());
     }
-}
-
-fn sum(x: [f64; ORDER]) -> f64 {
-    (x[0] + x[1]) + (x[2] + x[3]) + x[4]
+    let c = [
+        at[0][0] - at[2][0] - at[0][2],
+        at[1][0] - 3.0 * at[3][0] - at[1][2],
+        at[0][1] - 3.0 * at[0][3] - at[2][1],
+        2.0 * at[2][0],
+        at[1][1],
+        2.0 * at[0][2],
+        4.0 * at[3][0],
+        2.0 * at[2][1],
+        2.0 * at[1][2],
+        4.0 * at[0][3],
+    ];
+    (c, dropped)
 }
 
 impl Model {
@@ -107,55 +71,10 @@ impl Model {
         model
     }
 
-    /// A polynomial with Bernstein coefficients `f`, each off by at most `error`.
-    pub fn of(f: &[f64], degree: Bidegree, error: f64, [along_s, along_t]: [&Table; 2]) -> Self {
-        let width = degree.t + 1;
-        let mut at = [[0.0; ORDER]; ORDER];
-        for (row, weights) in f.chunks_exact(width).zip(&along_s.to) {
-            let mut part = [0.0; ORDER];
-            for (x, by) in row.iter().zip(&along_t.to) {
-                (0..ORDER).for_each(|j| part[j] += x * by[j]);
-            }
-            for (at, weight) in at.iter_mut().zip(weights) {
-                (0..ORDER).for_each(|j| at[j] += weight * part[j]);
-            }
-        }
-        // The coefficients of the difference bound it.
-        let (mut off, mut size) = (0.0f64, 0.0f64);
-        for (row, values) in f.chunks_exact(width).zip(&along_s.from) {
-            let mut part = [0.0; ORDER];
-            for (at, value) in at.iter().zip(values) {
-                (0..ORDER).for_each(|j| part[j] += value * at[j]);
-            }
-            for (&x, by) in row.iter().zip(&along_t.from) {
-                let gap = (x - sum(std::array::from_fn(|j| part[j] * by[j]))).abs();
-                off = if gap > off { gap } else { off };
-                size = if x.abs() > size { x.abs() } else { size };
-            }
-        }
-        let mut all = 0.0;
-        let mut dropped = 0.0;
-        for (i, row) in at.iter().enumerate() {
-            for (j, x) in row.iter().enumerate() {
-                all += x.abs();
-                dropped += if i + j > 3 { x.abs() } else { 0.0 };
-            }
-        }
-        let c = [
-            at[0][0] - at[2][0] - at[0][2],
-            at[1][0] - 3.0 * at[3][0] - at[1][2],
-            at[0][1] - 3.0 * at[0][3] - at[2][1],
-            2.0 * at[2][0],
-            at[1][1],
-            2.0 * at[0][2],
-            4.0 * at[3][0],
-            2.0 * at[2][1],
-            2.0 * at[1][2],
-            4.0 * at[0][3],
-        ];
-        // The tables' entries are at most 17 terms' sum, each rounded a few times.
-        let rounded = 256.0 * HALF_ULP * (all + size);
-        Self { c, rest: (off + dropped + error + rounded) * UP }
+    /// The cubic part of an expansion.
+    pub fn of(expansion: &Expansion) -> Self {
+        let (c, dropped) = economised(&expansion.at);
+        Self { c, rest: (dropped + expansion.rest) * UP }
     }
 
     /// The sum of absolute coefficients of degree 0, 1, 2 and 3.
@@ -323,6 +242,29 @@ impl Model {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bezier::{Bidegree, binomial};
+    use crate::inspect::chebyshev::{Nodes, Part, expansion};
+    use crate::inspect::doubled::Doubled;
+    use crate::inspect::net::Exact;
+    use crate::simd::Level;
+
+    /// The model on a box of a polynomial with Bernstein coefficients `f`.
+    fn made(f: &[f64], degree: Bidegree, ends: [[f64; 2]; 2]) -> Model {
+        let coefficients = f.iter().map(|x| Doubled::new(*x)).collect();
+        let rounded = Exact { coefficients, degree, error: 0.0 }.rounded();
+        let mut work = Vec::new();
+        let [along_s, along_t] = [0, 1].map(|k| {
+            let mut part = Part::default();
+            Nodes::new([degree.s, degree.t][k]).part(
+                ends[k],
+                Level::detect(),
+                &mut work,
+                &mut part,
+            );
+            part
+        });
+        Model::of(&expansion(&rounded, [&along_s, &along_t], Level::detect(), &mut Vec::new()))
+    }
 
     fn dot(a: &[f64], b: &[f64]) -> f64 {
         a.iter().zip(b).map(|(x, y)| x * y).sum()
@@ -353,11 +295,12 @@ mod tests {
         };
         for round in 0..200 {
             let degree = Bidegree { s: round % 9, t: (round * 7) % 12 };
-            let tables = [Table::new(degree.s), Table::new(degree.t)];
+            let ends = [[0.0, 1.0], [0.25, 0.5], [0.0, 0.125]][round % 3];
+            let ends = [ends, [0.0, 1.0 - 0.5 * (round % 2) as f64]];
             let mut net = || (0..degree.count()).map(|_| random()).collect::<Vec<f64>>();
             let (f, mut g) = (net(), net());
             g.iter_mut().for_each(|x| *x = 2.0 + 0.6 * *x);
-            let make = |f: &[f64]| Model::of(f, degree, 0.0, [&tables[0], &tables[1]]);
+            let make = |f: &[f64]| made(f, degree, ends);
             let (a, b) = (make(&f), make(&g));
             let product = a.times(&b);
             let powers = [b.reciprocal(), b.sqrt(), b.reciprocal_sqrt()].map(Option::unwrap);
@@ -365,6 +308,8 @@ mod tests {
                 for j in 0..=8 {
                     let (s, t) = (i as f64 / 8.0, j as f64 / 8.0);
                     let (x, y) = (2.0 * s - 1.0, 2.0 * t - 1.0);
+                    let on = |[a, b]: [f64; 2], share: f64| a + (b - a) * share;
+                    let (s, t) = (on(ends[0], s), on(ends[1], t));
                     let (u, v) = (bernstein(&f, degree, s, t), bernstein(&g, degree, s, t));
                     let holds = |model: &Model, value: f64| {
                         let gap = (at(model, x, y) - value).abs();
@@ -385,9 +330,8 @@ mod tests {
     #[test]
     fn what_is_cubic_has_no_rest() {
         let degree = Bidegree { s: 2, t: 1 };
-        let tables = [Table::new(2), Table::new(1)];
         let f = [1.0, 2.0, -1.0, 0.5, 3.0, 1.0];
-        let model = Model::of(&f, degree, 0.0, [&tables[0], &tables[1]]);
+        let model = made(&f, degree, [[0.0, 1.0]; 2]);
         assert!(model.rest < 1e-12, "{model:?}");
         let middle = bernstein(&f, degree, 0.5, 0.5);
         assert!((model.c[0] - middle).abs() < 1e-15);

@@ -9,9 +9,8 @@
 //! have differences of exactly zero.
 
 use super::doubled::{Doubled, UNIT};
-use super::polynomial::Polynomial;
 use crate::bezier::Bidegree;
-use crate::bounds::HALF_ULP;
+use crate::bounds::{HALF_ULP, cross, norm, scaled, sub};
 use crate::index::SurfaceIndex;
 use crate::knots::Knots;
 use crate::surface::Surface;
@@ -56,6 +55,16 @@ fn extraction(knots: &Knots, [start, end]: [f64; 2]) -> Vec<Doubled> {
         }
     }
     matrix
+}
+
+/// A sum of products, of which many are zero.
+fn sum_of(pairs: impl Iterator<Item = (Doubled, Doubled)>) -> Doubled {
+    pairs.fold(
+        Doubled::default(),
+        |sum, (a, b)| {
+            if a.is_zero() || b.is_zero() { sum } else { sum + a * b }
+        },
+    )
 }
 
 /// `2^-e` with `2^e <= x < 2^(e+1)`, for a positive normal number.
@@ -115,8 +124,8 @@ impl<'a> Nets<'a> {
             *size = local.iter().fold(0.0, |m: f64, x| m.max(x.high.abs()));
             for i in 0..=p {
                 for j in 0..=q {
-                    let terms = (0..=p).map(|k| by_u[i * (p + 1) + k] * local[k * (q + 1) + j]);
-                    half[i * (q + 1) + j] = terms.fold(Doubled::default(), |sum, x| sum + x);
+                    half[i * (q + 1) + j] =
+                        sum_of((0..=p).map(|k| (by_u[i * (p + 1) + k], local[k * (q + 1) + j])));
                     half_zeros[i * (q + 1) + j] = (0..=p).all(|k| {
                         by_u[i * (p + 1) + k].is_zero() || local[k * (q + 1) + j].is_zero()
                     });
@@ -124,8 +133,9 @@ impl<'a> Nets<'a> {
             }
             for i in 0..=p {
                 for j in 0..=q {
-                    let terms = (0..=q).map(|k| by_v[j * (q + 1) + k] * half[i * (q + 1) + k]);
-                    poles.push(terms.fold(Doubled::default(), |sum, x| sum + x));
+                    poles.push(sum_of(
+                        (0..=q).map(|k| (by_v[j * (q + 1) + k], half[i * (q + 1) + k])),
+                    ));
                     zeros.push(
                         (0..=q).all(|k| {
                             by_v[j * (q + 1) + k].is_zero() || half_zeros[i * (q + 1) + k]
@@ -183,6 +193,91 @@ impl ExactNet {
             self.sizes[c] += 2.0 * origin[c].high.abs();
         }
         self
+    }
+
+    /// For each side the share of the patch from it on which the patch is no wider than the side is long, at most 1 and only about;
+    /// 1 for a side that is a point.
+    pub fn short_sides(&self) -> [f64; 4] {
+        let Bidegree { s: p, t: q } = self.degree;
+        let count = self.degree.count();
+        let at = |k: usize| {
+            let weight = if self.rational { self.poles[3 * count + k].high } else { 1.0 };
+            [0, 1, 2].map(|c| self.poles[c * count + k].high / weight)
+        };
+        [0, 1, 2, 3].map(|side| {
+            let along = if side < 2 { q } else { p };
+            // A pole of the side and the one next to it.
+            let poles = |i: usize| match side {
+                0 => [i, if p > 0 { q + 1 + i } else { i }],
+                1 => [p * (q + 1) + i, p.saturating_sub(1) * (q + 1) + i],
+                2 => [i * (q + 1), i * (q + 1) + q.min(1)],
+                _ => [i * (q + 1) + q, i * (q + 1) + q.saturating_sub(1)],
+            };
+            let (mut length, mut opening) = (0.0f64, 0.0f64);
+            for i in 0..along {
+                let [a, b] = [poles(i), poles(i + 1)].map(|pair| pair.map(at));
+                let (edge, next) = (sub(b[0], a[0]), sub(b[1], a[1]));
+                length = length.max(norm(edge));
+                opening = opening.max(norm(sub(next, edge)));
+            }
+            let across = (if side < 2 { p } else { q }) as f64;
+            if length > 0.0 { (length / (across * opening)).min(1.0) } else { 1.0 }
+        })
+    }
+
+    /// The net, turned in space, with the partials in the corner (s0, 0) moved to be parallel and the corner in the origin; and how far.
+    /// None when they are farther from it than `most`, or as far as they are long.
+    pub fn parallel(self, s0: f64, most: f64) -> Option<(Self, f64)> {
+        let Bidegree { s: p, t: q } = self.degree;
+        if p == 0 || q == 0 {
+            return None;
+        }
+        let count = self.degree.count();
+        let (first, next) = if s0 == 0.0 { (0, q + 1) } else { (p * (q + 1), (p - 1) * (q + 1)) };
+        let origin = self.point(first);
+        let mut net = self.about(origin);
+        let weight = |net: &Self, k: usize| {
+            if net.rational { net.poles[3 * count + k].high } else { 1.0 }
+        };
+        let at = |net: &Self, k: usize| {
+            [0, 1, 2].map(|c| net.poles[c * count + k].high / weight(net, k))
+        };
+        let mut ways = [next, first + 1].map(|k| at(&net, k));
+        if norm(ways[1]) > norm(ways[0]) {
+            ways.swap(0, 1);
+        }
+        let along = scaled(ways[0], 1.0 / norm(ways[0]));
+        let off = norm(cross(along, ways[1]));
+        if off.is_nan() || off > most || off > 1e-6 * norm(ways[1]) {
+            return None;
+        }
+        // Any two axes normal to it; unit vectors and normal to each other up to rounding: that much the patch is sheared.
+        let least = [0, 1, 2].map(|c: usize| along[c].abs());
+        let axis = if least[0] <= least[1].min(least[2]) {
+            [1.0, 0.0, 0.0]
+        } else if least[1] <= least[2] {
+            [0.0, 1.0, 0.0]
+        } else {
+            [0.0, 0.0, 1.0]
+        };
+        let second = cross(along, axis);
+        let second = scaled(second, 1.0 / norm(second));
+        let axes = [along, second, cross(along, second)];
+        let radius = (0..count).map(|k| norm(at(&net, k))).fold(0.0, f64::max);
+        let rows: Vec<Doubled> = net.poles[..3 * count].to_vec();
+        let size = net.sizes[0] + net.sizes[1] + net.sizes[2];
+        for (c, axis) in axes.iter().enumerate() {
+            for k in 0..count {
+                let terms = [0, 1, 2].map(|i| rows[i * count + k] * Doubled::new(axis[i]));
+                let is_fixed = k == first || (c > 0 && (k == next || k == first + 1));
+                let value =
+                    if is_fixed { Doubled::default() } else { terms[0] + terms[1] + terms[2] };
+                net.poles[c * count + k] = value;
+                net.zeros[c * count + k] = is_fixed;
+            }
+            net.sizes[c] = 2.0 * size;
+        }
+        Some((net, off + 16.0 * HALF_ULP * radius))
     }
 
     /// The net with the poles of the side t = 0 moved into the origin, and how far.
@@ -285,11 +380,29 @@ impl Exact {
         Self { error: divided.error + 8.0 * UNIT * divided.size(), ..divided }
     }
 
-    pub fn rounded(&self) -> Polynomial {
+    pub fn rounded(&self) -> Rounded {
         let coefficients: Vec<f64> = self.coefficients.iter().map(|x| x.rounded()).collect();
-        let f = Polynomial { coefficients, degree: self.degree, error: self.error };
-        Polynomial { error: self.error + 2.0 * HALF_ULP * f.size(), ..f }
+        let width = self.degree.t + 1;
+        let mut rows = vec![0.0f64; self.degree.s + 1];
+        let mut columns = vec![0.0f64; width];
+        for (row, most) in coefficients.chunks_exact(width).zip(&mut rows) {
+            for (x, along) in row.iter().zip(&mut columns) {
+                *along = if x.abs() > *along { x.abs() } else { *along };
+                *most = if x.abs() > *most { x.abs() } else { *most };
+            }
+        }
+        Rounded { coefficients, degree: self.degree, error: self.error, rows, columns }
     }
+}
+
+/// Coefficients as doubles: each is off by its own rounding, a half ulp, and by `error`.
+pub(super) struct Rounded {
+    pub coefficients: Vec<f64>,
+    pub degree: Bidegree,
+    pub error: f64,
+    /// Greatest absolute coefficient of each row (s) and of each column (t).
+    pub rows: Vec<f64>,
+    pub columns: Vec<f64>,
 }
 
 #[cfg(test)]
@@ -323,7 +436,7 @@ mod tests {
         for x in &second.coefficients {
             // The poles themselves are rounded to 1e-16: a share of 1e2 of what they differ by.
             let found = x / (index.frame.scale * width * width);
-            assert!(second.error < 1e-8 * x.abs() && found.is_finite(), "{x} {second:?}");
+            assert!(second.error < 1e-8 * x.abs() && found.is_finite(), "{x} {}", second.error);
         }
         assert!(net.zeros.iter().any(|zero| *zero));
     }

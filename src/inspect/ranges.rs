@@ -18,22 +18,33 @@
 use super::carrier::Elementary;
 use super::cell::{Bending, Known, check_degree};
 use super::climb::places;
+use super::crosscap::{crosscap, passes};
 use super::glance::glance;
-use super::growth::unbounded;
+use super::growth::{Way, unbounded_along};
 use super::interval::Interval;
-use super::local::{Local, Room};
-use super::net::Nets;
+use super::local::{Form, Local, Room, rounding};
+use super::net::{ExactNet, Nets};
 use super::request::{
-    Quantity, Range, RangeOptions, Unbounded, areas_inside, check, collapsed_side, known,
+    Quantity, Range, RangeOptions, Unbounded, areas_inside, check, collapsed_side, of_entries,
     parts_inside, patch_piece, segment_piece,
 };
-use super::search::{Field, Start, Task, found};
+use super::search::{Field, NARROW, Start, Task, found};
 use crate::bezier::Bidegree;
+use crate::bounds::Vector;
 use crate::error::Error;
 use crate::index::{IndexedCurve, IndexedSurface, Span, SurfaceIndex};
 
 /// Searches at most: each may meet singular boxes that the one before did not.
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 4;
+
+/// A side is short when the patch is as wide as the side is long this near to it; then it is left alone at first.
+const SHORT_SIDE: f64 = NARROW / 8.0;
+
+/// Where nothing is proven of singular boxes, those that are left of them when they are halved on.
+const DEEP_NARROW: f64 = NARROW * NARROW * NARROW;
+
+/// Singular boxes at most that are halved on.
+const MOST_DEEP: usize = 16;
 
 /// Boxes at most before closed forms that hold up to rounding are tried.
 const SHORT: u64 = 1_000;
@@ -53,11 +64,15 @@ struct Patches<'a> {
     /// How far patches were moved to be flat at their poles.
     moved: f64,
     room: Room,
+    work: Vec<Vector>,
+    /// Whether singular boxes are halved on until they are tiny.
+    is_deep: bool,
 }
 
 impl Field for Patches<'_> {
     fn glance(&mut self, k: usize) -> Option<Interval> {
-        glance(&patch_piece(self.index, k)).map(|shape| known(&shape, self.quantity).range)
+        glance(&patch_piece(self.index, k), &mut self.work)
+            .map(|entries| of_entries(entries, self.quantity))
     }
 
     fn on(&mut self, (k, s, t): Start) -> Known {
@@ -73,12 +88,64 @@ impl Field for Patches<'_> {
     }
 
     fn across(&self, (k, s, t): Start) -> Option<usize> {
-        let is_smooth = self.locals[k].as_ref().is_some_and(Local::is_smooth);
-        if is_smooth { None } else { collapsed_side(self.index, k, s, t) }
+        let local = self.locals[k].as_ref().filter(|local| !local.is_smooth())?;
+        let Some(side) = self.short_side(k, s, t) else {
+            return collapsed_side(self.index, k, s, t);
+        };
+        // Where the length of the side counts it is no singular one.
+        let far = [s[1], 1.0 - s[0], t[1], 1.0 - t[0]][side];
+        (far > 4.0 * local.short[side]).then_some(side / 2)
+    }
+
+    fn grain(&self, (k, s, t): Start) -> [f64; 2] {
+        if !self.is_deep {
+            return [NARROW; 2];
+        }
+        let mut grain = [DEEP_NARROW; 2];
+        if let Some(side) = self.short_side(k, s, t) {
+            let short = self.locals[k].as_ref().map_or(1.0, |local| local.short[side]);
+            grain[side / 2] = (NARROW * short).max(f64::MIN_POSITIVE);
+            grain[1 - side / 2] = NARROW;
+        }
+        grain
+    }
+
+    fn lengths(&self, (k, s, t): Start) -> [f64; 2] {
+        let mut lengths = [1.0; 2];
+        if let Some(local) = &self.locals[k] {
+            let far = [s[1], 1.0 - s[0], t[1], 1.0 - t[0]];
+            for side in (0..4).filter(|&side| local.short[side] < SHORT_SIDE) {
+                lengths[side / 2] = far[side].max(local.short[side]).min(lengths[side / 2]);
+            }
+        }
+        lengths
     }
 }
 
 impl Patches<'_> {
+    /// A side that has next to no length and that a box touches.
+    fn short_side(&self, k: usize, s: [f64; 2], t: [f64; 2]) -> Option<usize> {
+        let local = self.locals[k].as_ref()?;
+        let touched = [s[0] == 0.0, s[1] == 1.0, t[0] == 0.0, t[1] == 1.0];
+        (0..4).find(|&side| touched[side] && local.short[side] < SHORT_SIDE)
+    }
+
+    /// A proven cross-cap in an area.
+    fn crosscap(&mut self, &(k, s, t): &Start) -> Option<[f64; 2]> {
+        let side = self.short_side(k, s, t);
+        let corner = side.map_or([0.5; 2], |side| {
+            let mut corner = [0.0; 2];
+            corner[side / 2] = (side % 2) as f64;
+            corner
+        });
+        let net = self.nets.net(k, corner);
+        let Bidegree { s: p, t: q } = net.degree;
+        let pole = |x: f64, n: usize| (x * n as f64) as usize;
+        let origin = net.point(pole(corner[0], p) * (q + 1) + pole(corner[1], q));
+        let form = Form::new(&net.about(origin));
+        crosscap(&form, [s, t], side.map(|side| 1 - side / 2), &mut self.room)
+    }
+
     /// Where the quantity is proven to have no bound in an area that touches sides of its patch.
     fn unbounded(
         &mut self,
@@ -101,9 +168,21 @@ impl Patches<'_> {
                 let corner = x.round();
                 let corner = if side < 2 { [end, corner] } else { [corner, end] };
                 let (net, is_mirrored) = self.nets.net(k, corner).turned(side);
-                let (net, moved) = if is_collapsed { net.collapsed() } else { (net, 0.0) };
+                let (net, mut moved) = if is_collapsed { net.collapsed() } else { (net, 0.0) };
                 let sign = if is_mirrored { -1.0 } else { 1.0 };
-                let found = unbounded(&net, x, self.quantity, sign);
+                let is_corner = x == 0.0 || x == 1.0;
+                let across = [Way::across(x)];
+                let into = Way::into_corner(x);
+                let ways = if is_corner { &into[..] } else { &across[..] };
+                let along = |net: &ExactNet| unbounded_along(net, ways, self.quantity, sign);
+                let mut found = along(&net);
+                if found == [false; 2]
+                    && is_corner
+                    && !is_collapsed
+                    && let Some((net, off)) = net.parallel(x, rounding(self.nets.magnitude()))
+                {
+                    (found, moved) = (along(&net), off);
+                }
                 if found != [false; 2] {
                     self.moved = self.moved.max(moved);
                     let [u, v] = spans(k);
@@ -112,6 +191,14 @@ impl Patches<'_> {
                     best = [best[0] || found[0], best[1] || found[1]];
                 }
             }
+        }
+        if at.is_none()
+            && !is_smooth
+            && let Some(place) = self.crosscap(&(k, s, t))
+        {
+            let [u, v] = spans(k);
+            at = Some([u.global(place[0]), v.global(place[1])]);
+            best = passes(self.quantity);
         }
         let [u, v] = spans(k);
         let domain = [u.global(s[0]), u.global(s[1]), v.global(t[0]), v.global(t[1])];
@@ -161,6 +248,8 @@ pub fn surface_range(
         locals: (0..index.patches.len()).map(|_| None).collect(),
         moved: 0.0,
         room: Room::default(),
+        work: Vec::new(),
+        is_deep: false,
     };
     let thought = places(surface.surface(), &spans, &starts, quantity, options.side);
     // Where the surface is singular, closed forms that hold up to rounding say more than a long search.
@@ -187,10 +276,21 @@ pub fn surface_range(
         if all.excluded.is_empty() {
             break;
         }
-        for area in &all.excluded {
-            unbounded.extend(field.unbounded(area, &spans));
+        let mut unproven = Vec::new();
+        for area in std::mem::take(&mut all.excluded) {
+            match field.unbounded(&area, &spans) {
+                Some(found) => {
+                    unbounded.push(found);
+                    left_out.push(area);
+                }
+                None => unproven.push(area),
+            }
         }
-        left_out.append(&mut all.excluded);
+        if !field.is_deep && unproven.len() <= MOST_DEEP {
+            field.is_deep = true;
+        } else {
+            left_out.append(&mut unproven);
+        }
         join(&mut left_out);
         let mut around = thought.clone();
         around.extend(left_out.iter().take(MOST_RIMS).flat_map(rim));

@@ -1,6 +1,6 @@
 //! What is asked of a range of curvatures, the answer, and the pieces of a shape that a domain holds.
 
-use super::cell::{Known, Piece, Shape};
+use super::cell::{Known, Piece, Shape, eigenvalues};
 use super::interval::Interval;
 use crate::bezier::Bidegree;
 use crate::bounds::HALF_ULP;
@@ -145,6 +145,28 @@ pub(super) fn check(options: &RangeOptions, bounds: &[[f64; 2]]) -> Result<(), E
     Ok(())
 }
 
+/// The greater absolute value of two.
+pub(super) fn sharper(a: Interval, b: Interval) -> Interval {
+    Interval {
+        low: a.least_magnitude().max(b.least_magnitude()),
+        high: a.magnitude().max(b.magnitude()),
+    }
+}
+
+/// A quantity from what is known of the entries of the shape operator `[[a, b], [b, d]]`.
+pub(super) fn of_entries([a, b, d]: [Interval; 3], quantity: Quantity) -> Interval {
+    match quantity {
+        Quantity::Mean => (a + d).times(0.5),
+        Quantity::Gaussian => a * d - b.squared(),
+        Quantity::Greater => eigenvalues([a, b, d])[0],
+        Quantity::Less => eigenvalues([a, b, d])[1],
+        Quantity::Sharpest => {
+            let [greater, less] = eigenvalues([a, b, d]);
+            sharper(greater, less)
+        }
+    }
+}
+
 pub(super) fn known(shape: &Shape, quantity: Quantity) -> Known {
     match quantity {
         Quantity::Mean => shape.mean().into(),
@@ -153,10 +175,6 @@ pub(super) fn known(shape: &Shape, quantity: Quantity) -> Known {
         Quantity::Less => shape.principal()[1],
         Quantity::Sharpest => {
             let [greater, less] = shape.principal();
-            let sharper = |a: Interval, b: Interval| Interval {
-                low: a.least_magnitude().max(b.least_magnitude()),
-                high: a.magnitude().max(b.magnitude()),
-            };
             // Both sides' slopes count; for the choice of the halving the wider one will do.
             let gradient = [0, 1].map(|k| greater.gradient[k].or(less.gradient[k]));
             Known {

@@ -17,8 +17,8 @@ use crate::index::Span;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// Boxes that are singular and narrower than this share of their piece are excluded.
-const NARROW: f64 = 1.0 / 1024.0;
+/// Boxes that are singular and narrower than this share of their piece are excluded, unless the field goes on.
+pub(super) const NARROW: f64 = 1.0 / 1024.0;
 
 /// Curvature of a sphere about as large as the shape, in the index's coordinates: what gaps of small curvatures are measured by.
 pub(super) const FLOOR: f64 = 0.5;
@@ -42,6 +42,16 @@ pub(super) trait Field {
     /// Direction across a side on which the piece is singular and that the box touches.
     fn across(&self, _: Start) -> Option<usize> {
         None
+    }
+
+    /// Singular boxes that are narrower are excluded.
+    fn grain(&self, _: Start) -> [f64; 2] {
+        [NARROW; 2]
+    }
+
+    /// Lengths over which the function may be thought to vary alike in both directions.
+    fn lengths(&self, _: Start) -> [f64; 2] {
+        [1.0; 2]
     }
 }
 
@@ -196,11 +206,22 @@ impl Search<'_> {
     }
 
     /// Whether rounding alone is more than the allowed gap in the middle of a small box: its parts would be no better.
-    fn is_noise(&self, area: &Area, depth: u32) -> bool {
-        let Interval { low, high } = area.known.middle;
-        let (gap, range) = (high - low, area.known.range.high - area.known.range.low);
-        let allowed = self.allowed(low.abs().min(high.abs()));
-        depth >= DEEP && gap > allowed && range <= 4.0 * gap && range.is_finite()
+    fn is_noise(&mut self, area: &Area, depth: u32) -> bool {
+        let width = |x: Interval| x.high - x.low;
+        let wide = |middle: Interval| {
+            let gap = width(middle);
+            gap > self.allowed(middle.low.abs().min(middle.high.abs()))
+                && width(area.known.range) <= 4.0 * gap
+        };
+        if depth < DEEP || !width(area.known.range).is_finite() || !wide(area.known.middle) {
+            return false;
+        }
+        // A box without extent has nothing but its rounding.
+        let (piece, s, t) = area.at;
+        let on = |[a, b]: [f64; 2]| [0.5 * (a + b); 2];
+        let at = self.look((piece, on(s), on(t))).middle;
+        let gap = width(at);
+        gap > self.allowed(at.low.abs().min(at.high.abs())) && width(area.known.range) <= 4.0 * gap
     }
 
     fn halve(&mut self, area: Area, depth: u32) {
@@ -211,7 +232,8 @@ impl Search<'_> {
         let left_out = self.sticking_out(area.at);
         let wanted = left_out.or(across);
         let direction = wanted.unwrap_or_else(|| self.direction(&area, widths));
-        let narrow = |k: usize| widths[k] <= NARROW;
+        let grain = self.field.grain(area.at);
+        let narrow = |k: usize| widths[k] <= grain[k];
         let is_last = match across {
             Some(k) => narrow(k),
             None => narrow(1) && (narrow(0) || !self.has_s),
@@ -249,6 +271,8 @@ impl Search<'_> {
             return 1;
         }
         let spread = area.known.gradient.map(|slope| slope.high - slope.low);
+        let lengths = self.field.lengths(area.at);
+        let widths = [0, 1].map(|k| widths[k] / lengths[k]);
         let wider = usize::from(widths[1] > widths[0]);
         let is_known = spread.iter().all(|x| x.is_finite()) && spread != [0.0; 2];
         if !is_known || widths[wider] > 64.0 * widths[1 - wider] {
