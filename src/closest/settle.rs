@@ -38,11 +38,24 @@ fn bound(
     position: f64,
     degrees: [usize; 2],
 ) -> Option<f64> {
-    let look = Look::new([jet.d, jet.s, jet.t], jet.w[0], position, degrees);
     let bends = reach.bend(k, at);
     let sides = reach.sides(k, at);
+    let side = (0..4).find(|&side| sides[side]);
+    // Most places that cannot settle are known by what their side of the surface asks at least.
+    let least = bends[0].min(bends[1]);
+    let hopeless = match side {
+        None => room((norm(jet.d) + position) * least) < LEAST_ROOM,
+        Some(side) => {
+            let corner = (side + 1..4).any(|other| sides[other]);
+            corner || least == f64::INFINITY || reach.rim(k, at, side) == f64::INFINITY
+        }
+    };
+    if hopeless {
+        return None;
+    }
+    let look = Look::new([jet.d, jet.s, jet.t], jet.w[0], position, degrees);
     let Look { d, slacks, speeds, off, height, .. } = look;
-    let Some(side) = (0..4).find(|&side| sides[side]) else {
+    let Some(side) = side else {
         let (asked, lost) = (look.asked(bends, position), look.lost());
         return closed(closing([d, asked, lost, position], [reach.kink, reach.gap]));
     };
@@ -50,8 +63,7 @@ fn bound(
     let (across, along) = (tangents[side / 2], tangents[1 - side / 2]);
     let rest = sub(across, scaled(along, dot(across, along) / dot(along, along)));
     let out = dot(jet.d, rest) / norm(rest) * if side % 2 == 0 { 1.0 } else { -1.0 };
-    let corner = (side + 1..4).any(|other| sides[other]);
-    if out.is_nan() || out < 0.0 || corner {
+    if out.is_nan() || out < 0.0 {
         return None;
     }
     // How far along the side the query is; an outward part that may be none may also be an inward one.
@@ -136,14 +148,19 @@ impl<V> Look<V> {
     }
 }
 
+/// What `|a| K + b K_o` leaves.
+#[inline(always)]
+fn room<V: Lanes<N>, const N: usize>(asked: V) -> V {
+    V::splat(1.0) - V::splat(2.0) * asked * V::splat(1.0 + 1e-12)
+}
+
 /// The bound from d, `|a| K + b K_o`, `|e|` and how far the point may be off; then the room, and all of `|e|`.
 #[inline(always)]
 fn closing<V: Lanes<N>, const N: usize>(
     [d, asked, lost, position]: [V; 4],
     [kink, gap]: [f64; 2],
 ) -> [V; 3] {
-    let (zero, one) = (V::splat(0.0), V::splat(1.0));
-    let room = one - V::splat(2.0) * asked * V::splat(1.0 + 1e-12);
+    let (zero, room) = (V::splat(0.0), room(asked));
     let lost = lost + V::splat(2.0 * kink) * d + V::splat(gap);
     let less = lost * lost / room + V::splat(4.0 * gap) * d;
     let square = (d - position).max(zero) * V::splat(1.0 - 8.0 * HALF_ULP);
