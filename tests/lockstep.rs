@@ -2,6 +2,7 @@
 //! level, in groups of any size.
 
 #[path = "cases/mod.rs"]
+#[allow(dead_code, reason = "shapes and points only")]
 mod cases;
 mod shapes;
 

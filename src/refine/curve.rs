@@ -68,7 +68,8 @@ fn iterate(
     let mut taken = from.taken + 1;
     tell(&mut trace, curve, 0, s, &jet);
     let steps = if from.is_foot { 0 } else { method.steps() };
-    for step in taken..=steps {
+    let first = taken;
+    for step in first..=steps {
         let g = jet.gradient();
         if g == 0.0 || (s <= low && g > 0.0) || (s >= high && g < 0.0) {
             break;

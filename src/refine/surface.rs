@@ -124,7 +124,8 @@ fn iterate(
     let mut taken = from.taken + 1;
     tell(&mut trace, surface, 0, state.at, &place);
     let steps = if from.is_foot { 0 } else { method.steps() };
-    for count in taken..=steps {
+    let first = taken;
+    for count in first..=steps {
         let held = state.held(place.g);
         let Some((step, second_order)) = bounded_step(&state, &place, method) else { break };
         let whole = state.moved(step, 1.0);
