@@ -16,6 +16,7 @@
 //! Limit: a derivative that leaves the range of doubles (spans shorter than 1e-150) is not finite.
 
 use crate::knots::Knots;
+use crate::simd::Lanes;
 
 /// Knot differences are stretched by this power of two before they divide, so that the reciprocal of
 /// the least positive double is finite. It drops out again without rounding.
@@ -27,26 +28,35 @@ const STRETCH: f64 = 18_446_744_073_709_551_616.0;
 /// of them is the only one that is not zero.
 pub fn values(knots: &Knots, span: usize, u: f64, out: &mut [f64]) {
     let degree = knots.degree();
-    let around = &knots.values()[span + 1 - degree..=span + degree];
+    let around = &knots.values()[span + 1 - degree..span + 1 + degree];
     match degree {
         1 => grow::<1>(around, u, out),
         2 => grow::<2>(around, u, out),
         3 => grow::<3>(around, u, out),
         4 => grow::<4>(around, u, out),
         5 => grow::<5>(around, u, out),
-        _ => {
-            out[0] = 1.0;
-            for grown in 1..=degree {
-                raise(around, degree, grown, u, out);
-            }
-        }
+        _ => values_around(around, degree, u, out),
+    }
+}
+
+/// The same for knots `u_{i+1-p} .. u_{i+p}` and a parameter lane by lane, bit for bit.
+#[inline(always)]
+pub fn values_around<V: Lanes<N>, const N: usize>(
+    around: &[V],
+    degree: usize,
+    u: V,
+    out: &mut [V],
+) {
+    out[0] = V::splat(1.0);
+    for grown in 1..=degree {
+        raise(around, degree, grown, u, out);
     }
 }
 
 /// The whole triangle for a degree that the compiler knows: the same steps without loops.
 #[inline(always)]
 fn grow<const DEGREE: usize>(around: &[f64], u: f64, out: &mut [f64]) {
-    let (around, out) = (&around[..2 * DEGREE], &mut out[..=DEGREE]);
+    let (around, out) = (&around[..2 * DEGREE], &mut out[..DEGREE + 1]);
     out[0] = 1.0;
     for grown in 1..=DEGREE {
         raise(around, DEGREE, grown, u, out);
@@ -59,7 +69,7 @@ fn grow<const DEGREE: usize>(around: &[f64], u: f64, out: &mut [f64]) {
 /// same bits as [`values`]. Rows above the degree are zero.
 pub fn derivatives(knots: &Knots, span: usize, u: f64, count: usize, out: &mut [f64]) {
     let degree = knots.degree();
-    let around = &knots.values()[span + 1 - degree..=span + degree];
+    let around = &knots.values()[span + 1 - degree..span + 1 + degree];
     let width = degree + 1;
     let (row, higher) = out[..(count + 1) * width].split_at_mut(width);
     row[0] = 1.0;
@@ -87,13 +97,19 @@ pub fn derivatives(knots: &Knots, span: usize, u: f64, count: usize, out: &mut [
 /// Replaces the row of degree `grown - 1` by the row of degree `grown`. `around` holds the knots
 /// `u_{i+1-p} .. u_{i+p}`, so that `u_{i+1+r}` is `around[p + r]`.
 #[inline(always)]
-fn raise(around: &[f64], degree: usize, grown: usize, u: f64, row: &mut [f64]) {
+fn raise<V: Lanes<N>, const N: usize>(
+    around: &[V],
+    degree: usize,
+    grown: usize,
+    u: V,
+    row: &mut [V],
+) {
     let ends = &around[degree..degree + grown];
     let starts = &around[degree - grown..degree];
-    let mut saved = 0.0;
+    let mut saved = V::splat(0.0);
     for ((value, end), start) in row.iter_mut().zip(ends).zip(starts) {
-        let right = (end - u) * STRETCH;
-        let left = (u - start) * STRETCH;
+        let right = (*end - u) * V::splat(STRETCH);
+        let left = (u - *start) * V::splat(STRETCH);
         let share = *value / (right + left);
         *value = saved + right * share;
         saved = left * share;

@@ -35,8 +35,24 @@ const BITS: u32 = 10;
 /// How often the calling thread polls while it waits for the others.
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// The work of a batch: query number and workspace of the thread to record.
-pub type Work<'a, W, R = FootPoint> = &'a (dyn Fn(usize, &mut W) -> R + Sync);
+/// The work of a batch; `W`: the workspace of a thread.
+pub trait Work<W, R = FootPoint>: Sync {
+    /// The record of a query, by its number.
+    fn one(&self, number: usize, memory: &mut W) -> R;
+
+    /// The records of some queries, at most [`GROUP`].
+    fn group(&self, numbers: &[usize], memory: &mut W, out: &mut [R]) {
+        for (record, &number) in out.iter_mut().zip(numbers) {
+            *record = self.one(number, memory);
+        }
+    }
+}
+
+impl<W, R, F: Fn(usize, &mut W) -> R + Sync> Work<W, R> for F {
+    fn one(&self, number: usize, memory: &mut W) -> R {
+        self(number, memory)
+    }
+}
 
 /// What a query leaves.
 pub trait Record: Copy + Send {
@@ -119,7 +135,7 @@ pub fn run<W: Memory, R: Record>(
     out: &mut [R],
     threads: usize,
     place: Option<Place>,
-    work: Work<W, R>,
+    work: &dyn Work<W, R>,
     poll: Poll,
 ) -> Result<(), Error> {
     let total = out.len();
@@ -157,7 +173,7 @@ fn work_together<W: Memory, R: Record>(
     tiles: &[Mutex<Option<Tile<R>>>],
     threads: usize,
     place: Option<Place>,
-    work: Work<W, R>,
+    work: &dyn Work<W, R>,
     progress: &Progress,
     poll: Poll,
 ) {
@@ -195,7 +211,7 @@ fn work_off<W, R: Record>(
     (first, records): Tile<R>,
     memory: &mut W,
     place: Option<Place>,
-    work: Work<W, R>,
+    work: &dyn Work<W, R>,
     progress: &Progress,
     poll: Poll,
 ) {
@@ -212,8 +228,24 @@ fn work_off<W, R: Record>(
             (group..total).for_each(|k| records[at(k)] = R::unreached());
             return;
         }
-        for k in group..end {
-            records[at(k)] = work(first + at(k), memory);
+        if end - group == 1 {
+            records[at(group)] = work.one(first + at(group), memory);
+            progress.done.fetch_add(1, Ordering::Relaxed);
+            continue;
+        }
+        let mut numbers = [0; GROUP];
+        let numbers = &mut numbers[..end - group];
+        for (number, k) in numbers.iter_mut().zip(group..) {
+            *number = first + at(k);
+        }
+        if order.is_empty() {
+            work.group(numbers, memory, &mut records[group..end]);
+        } else {
+            let mut found = [R::unreached(); GROUP];
+            work.group(numbers, memory, &mut found[..numbers.len()]);
+            for (&number, record) in numbers.iter().zip(found) {
+                records[number - first] = record;
+            }
         }
         progress.done.fetch_add(end - group, Ordering::Relaxed);
     }

@@ -16,6 +16,7 @@
 //! Limit: degrees up to 31; products of two such factors have 63 coefficients a direction, of three 94.
 
 use crate::knots::{Knots, MAX_DEGREE};
+use crate::simd::Lanes;
 
 /// Most coefficients of a product of two factors in one direction.
 pub const MAX_PRODUCT: usize = 2 * MAX_DEGREE + 1;
@@ -116,48 +117,50 @@ fn blend(poles: &mut [f64], from: [usize; 2], out: usize, strands: usize, [y, x]
 /// Bernstein basis of degree `p` at `s` and its first two derivatives, each `p + 1` long and at most `LEN`, from the powers
 /// of `s` and `1 - s`: O(p), and no step of a row waits for the one before.
 #[inline(always)]
-pub fn basis<const LEN: usize>(
+pub fn basis<V: Lanes<W>, const W: usize, const LEN: usize>(
     p: usize,
-    s: f64,
-    values: &mut [f64],
-    first: &mut [f64],
-    second: &mut [f64],
+    s: V,
+    values: &mut [V],
+    first: &mut [V],
+    second: &mut [V],
 ) {
-    let (mut up, mut down) = ([1.0; LEN], [1.0; LEN]);
+    let (zero, one, two) = (V::splat(0.0), V::splat(1.0), V::splat(2.0));
+    let (mut up, mut down) = ([one; LEN], [one; LEN]);
     // The power i of 1 - s is number LEN - 1 - i: a row then runs through both tables forwards.
     for i in 1..=p {
         up[i] = up[i - 1] * s;
-        down[LEN - 1 - i] = down[LEN - i] * (1.0 - s);
+        down[LEN - 1 - i] = down[LEN - i] * (one - s);
     }
     row(p, &up, &down[LEN - 1 - p..], values);
-    let (n, m) = (p as f64, p as f64 * (p as f64 - 1.0));
-    let mut lower = [0.0; LEN];
+    let (n, m) = (V::splat(p as f64), V::splat(p as f64 * (p as f64 - 1.0)));
+    let mut lower = [zero; LEN];
     if p > 0 {
         row(p - 1, &up, &down[LEN - p..], &mut lower);
     }
-    first[0] = -n * lower[0];
+    first[0] = V::splat(-(p as f64)) * lower[0];
     for i in 1..=p {
         first[i] = n * (lower[i - 1] - lower[i]);
     }
-    lower = [0.0; LEN];
+    lower = [zero; LEN];
     if p > 1 {
         row(p - 2, &up, &down[LEN + 1 - p..], &mut lower);
     }
     second[0] = m * lower[0];
     if p > 0 {
-        second[1] = m * (lower[1] - 2.0 * lower[0]);
+        second[1] = m * (lower[1] - two * lower[0]);
     }
     for i in 2..=p {
-        second[i] = m * (lower[i - 2] - 2.0 * lower[i - 1] + lower[i]);
+        second[i] = m * (lower[i - 2] - two * lower[i - 1] + lower[i]);
     }
 }
 
 /// The Bernstein basis of degree `n` from rising and falling powers.
 #[inline(always)]
-fn row(n: usize, up: &[f64], down: &[f64], out: &mut [f64]) {
-    let (binomial, up) = (&BINOMIAL[n][..=n], &up[..=n]);
-    for (((out, b), x), y) in out[..=n].iter_mut().zip(binomial).zip(up).zip(&down[..=n]) {
-        *out = b * x * y;
+fn row<V: Lanes<W>, const W: usize>(n: usize, up: &[V], down: &[V], out: &mut [V]) {
+    let (binomial, up, down, out) =
+        (&BINOMIAL[n][..n + 1], &up[..n + 1], &down[..n + 1], &mut out[..n + 1]);
+    for i in 0..n + 1 {
+        out[i] = V::splat(binomial[i]) * up[i] * down[i];
     }
 }
 
@@ -438,7 +441,7 @@ mod tests {
             let h = 1e-5;
             let at = |s: f64| {
                 let (mut v, mut d, mut e) = ([0.0; 10], [0.0; 10], [0.0; 10]);
-                basis::<10>(p, s, &mut v, &mut d, &mut e);
+                basis::<f64, 1, 10>(p, s, &mut v, &mut d, &mut e);
                 (v, d, e)
             };
             let (low, mid, high) = (at(0.3 - h), at(0.3), at(0.3 + h));

@@ -5,6 +5,8 @@
 //!
 //! References: Higham, *Accuracy and Stability of Numerical Algorithms*, chapter 3.
 
+use crate::simd::Lanes;
+
 /// Unit roundoff of a double.
 pub const HALF_ULP: f64 = 1.110_223_024_625_156_5e-16;
 
@@ -12,7 +14,8 @@ pub const HALF_ULP: f64 = 1.110_223_024_625_156_5e-16;
 pub type Vector = [f64; 3];
 
 /// `a . b`.
-pub fn dot(a: Vector, b: Vector) -> f64 {
+#[inline(always)]
+pub fn dot<V: Lanes<N>, const N: usize>(a: [V; 3], b: [V; 3]) -> V {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
@@ -32,12 +35,14 @@ pub fn scaled(a: Vector, x: f64) -> Vector {
 }
 
 /// `a x b`.
-pub fn cross(a: Vector, b: Vector) -> Vector {
+#[inline(always)]
+pub fn cross<V: Lanes<N>, const N: usize>(a: [V; 3], b: [V; 3]) -> [V; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// `|a|`.
-pub fn norm(a: Vector) -> f64 {
+#[inline(always)]
+pub fn norm<V: Lanes<N>, const N: usize>(a: [V; 3]) -> V {
     dot(a, a).sqrt()
 }
 

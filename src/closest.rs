@@ -33,6 +33,8 @@ mod ties;
 
 mod local;
 
+mod lockstep;
+
 mod elementary;
 
 mod curve;
@@ -165,6 +167,7 @@ pub struct Workspace {
     start: Vec<f64>,
     line: line::LineMemory,
     patch: patch::PatchMemory,
+    lockstep: lockstep::Memory,
 }
 
 impl Workspace {
@@ -234,12 +237,17 @@ fn grained(allowed: f64, grain: f64, frame: &Frame) -> f64 {
 
 /// What every global answer ends with: the bound in the caller's lengths and the flags of the certificate.
 fn certify(foot: &mut FootPoint, proof: &Proof, frame: &Frame, allowed: f64) {
-    let bound = proof.proven() / frame.scale;
-    foot.lower_bound = if bound > 0.0 { bound.min(foot.distance) } else { 0.0 };
     foot.iterations = proof.evaluations;
     if proof.exhausted {
         foot.flags |= flag::BUDGET;
     }
+    bounded(foot, proof.proven(), frame, allowed);
+}
+
+/// Takes a proven bound, in the index's lengths, into the record.
+fn bounded(foot: &mut FootPoint, proven: f64, frame: &Frame, allowed: f64) {
+    let bound = proven / frame.scale;
+    foot.lower_bound = if bound > 0.0 { bound.min(foot.distance) } else { 0.0 };
     let gap = foot.distance - foot.lower_bound;
     foot.flags &= !flag::NOT_PROVEN;
     if gap.is_nan() || gap > allowed {

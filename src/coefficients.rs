@@ -14,12 +14,14 @@
 //!
 //! Reference: Farouki, Rajan, *Algorithms for polynomials in Bernstein form*, 1988.
 
+mod halve;
 mod kernels;
 
 use crate::bezier::{Bidegree, binomial};
 use crate::bounds::Vector;
 use crate::simd::Level;
-use kernels::{Beyond, Extremes, Halve, Multiply, ProductBeyond, Ratio, Square};
+use halve::Halve;
+use kernels::{Beyond, Extremes, Multiply, ProductBeyond, Ratio, Square};
 
 /// Lanes of a vector, and room before the first coefficient.
 const LANES: usize = 8;

@@ -19,6 +19,9 @@ use crate::error::Error;
 use crate::knots::{Knots, MAX_DEGREE, MAX_MAGNITUDE, Side, copied};
 
 pub(crate) mod insertion;
+mod lockstep;
+
+pub(crate) use lockstep::{add_lanes, lane_basis, lane_points, lane_poles};
 
 /// Ends nearer than this, relative to the diagonal of the box, are the same point: a closed shape.
 pub const CLOSED_TOLERANCE: f64 = 1e-9;
@@ -112,7 +115,7 @@ impl Curve {
         debug_assert!(self.knots.contains(u), "u = {u} is outside the domain");
         let span = self.knots.span(u);
         let mut basis = [0.0; ORDER];
-        let basis = &mut basis[..=self.degree()];
+        let basis = &mut basis[..self.degree() + 1];
         basis::values(&self.knots, span, u, basis);
         let reference = self.reference(span, basis);
         self.position(reference, self.sum(span, basis, reference))
@@ -122,7 +125,7 @@ impl Curve {
     pub fn vector_from(&self, query: [f64; 3], u: f64) -> [f64; 3] {
         let span = self.knots.span(u);
         let mut basis = [0.0; ORDER];
-        let basis = &mut basis[..=self.degree()];
+        let basis = &mut basis[..self.degree() + 1];
         basis::values(&self.knots, span, u, basis);
         let reference = self.reference(span, basis);
         let apart = std::array::from_fn(|axis| reference[axis] - query[axis]);
@@ -175,7 +178,7 @@ impl Curve {
 
     /// `sum N_j w_j (P_j - reference)` and `sum N_j w_j`.
     fn sum(&self, span: usize, basis: &[f64], reference: [f64; 3]) -> [f64; 4] {
-        let active = span - self.degree()..=span;
+        let active = span - self.degree()..span + 1;
         let poles = &self.poles[active.clone()];
         let mut sum = [0.0; 4];
         match &self.weights {

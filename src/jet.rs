@@ -4,14 +4,20 @@
 //! `W d_s = r_s - W_s d`, `W d_ss = r_ss - 2 W_s d_s - W_ss d`, `W d_st = r_st - W_s d_t - W_t d_s - W_st d`.
 //! Reference: Piegl, Tiller, *The NURBS Book*, 2nd ed., equations 4.8 and 4.20.
 
+mod lockstep;
 mod slopes;
+mod sums;
 
+pub use lockstep::{PatchJets, SegmentJets};
 pub use slopes::Slopes;
 
-use crate::bezier::{Bidegree, basis};
+use crate::bezier::Bidegree;
 use crate::bounds::{Vector, dot, norm, sub};
 use crate::knots::MAX_DEGREE;
 use crate::simd::{Kernel, Lanes, Level, Simd};
+use sums::{
+    EXACT, FIXED, MIDDLE, bernstein, patch_sums, quotients, quotients_of_two, segment_sums,
+};
 
 /// Second derivatives of the squared distance below this share of the metric count as zero.
 const FLAT: f64 = 1e-6;
@@ -175,96 +181,6 @@ pub fn pole_distance(pole: &Lane, q: Vector) -> f64 {
     norm(sub(place(*pole), q))
 }
 
-/// Degrees whose loops have fixed lengths.
-const FIXED: usize = 5;
-
-/// Degrees up to which the number of columns of a patch is known to the compiler.
-const EXACT: usize = 9;
-
-/// Degrees whose arrays are half as long as those of the highest.
-const MIDDLE: usize = 15;
-
-/// Basis values, first and second derivatives.
-type Basis<const N: usize> = [[f64; N]; 3];
-
-/// The Bernstein basis of degree `n - 1`, `n <= N`; what is beyond `n` is zero.
-#[inline(always)]
-fn bernstein<const N: usize>(n: usize, s: f64) -> Basis<N> {
-    match n {
-        2 => widened::<2, N>(fixed_basis(s)),
-        3 => widened::<3, N>(fixed_basis(s)),
-        4 => widened::<4, N>(fixed_basis(s)),
-        5 => widened::<5, N>(fixed_basis(s)),
-        6 => widened::<6, N>(fixed_basis(s)),
-        7 if N >= 7 => widened::<7, N>(power_basis(s)),
-        8 if N >= 8 => widened::<8, N>(power_basis(s)),
-        9 if N >= 9 => widened::<9, N>(power_basis(s)),
-        10 if N >= 10 => widened::<10, N>(power_basis(s)),
-        _ => {
-            let mut out = [[0.0; N]; 3];
-            if N <= FIXED + 1 {
-                // Not so many poles: nothing to compile.
-                return out;
-            }
-            let [values, first, second] = &mut out;
-            basis::<N>(n - 1, s, &mut values[..n], &mut first[..n], &mut second[..n]);
-            out
-        }
-    }
-}
-
-#[inline(always)]
-fn widened<const M: usize, const N: usize>(basis: Basis<M>) -> Basis<N> {
-    let mut out = [[0.0; N]; 3];
-    for k in 0..3 {
-        for i in 0..M.min(N) {
-            out[k][i] = basis[k][i];
-        }
-    }
-    out
-}
-
-/// As [`basis`], for a degree `M - 1` that the compiler knows: the same steps without loops.
-#[inline(always)]
-fn fixed_basis<const M: usize>(s: f64) -> Basis<M> {
-    let (p, r) = (M - 1, 1.0 - s);
-    let (mut row, mut once, mut twice) = ([0.0; M], [0.0; M], [0.0; M]);
-    row[0] = 1.0;
-    for level in 0..p {
-        if level + 2 == p {
-            twice = row;
-        }
-        if level + 1 == p {
-            once = row;
-        }
-        let mut carry = 0.0;
-        for i in 0..=level {
-            let old = row[i];
-            row[i] = carry + r * old;
-            carry = s * old;
-        }
-        row[level + 1] = carry;
-    }
-    let (n, m) = (p as f64, (p * (p - 1)) as f64);
-    let (mut first, mut second) = ([0.0; M], [0.0; M]);
-    for i in 0..M {
-        let one = if i > 0 { once[i - 1] } else { 0.0 };
-        first[i] = n * (one - once[i]);
-        let (one, two) =
-            (if i > 0 { twice[i - 1] } else { 0.0 }, if i > 1 { twice[i - 2] } else { 0.0 });
-        second[i] = m * (two - 2.0 * one + twice[i]);
-    }
-    [row, first, second]
-}
-
-/// As [`basis`], for a degree `M - 1` that the compiler knows: the same steps without loops.
-#[inline(always)]
-fn power_basis<const M: usize>(s: f64) -> Basis<M> {
-    let [mut values, mut first, mut second] = [[0.0; M]; 3];
-    basis::<M>(M - 1, s, &mut values, &mut first, &mut second);
-    [values, first, second]
-}
-
 #[inline(always)]
 fn vector<V: Lanes<4>>(lane: V) -> Vector {
     let [x, y, z, _] = lane.array();
@@ -282,15 +198,9 @@ impl SegmentJet<'_> {
     /// Value, first and second derivative; `N` is the number of poles, or at least that.
     #[inline(always)]
     fn sums<S: Simd, const N: usize>(&self, n: usize) -> [S::F4; 3] {
-        let b = bernstein::<N>(n, self.1);
-        let mut sums = [S::F4::splat(0.0); 3];
-        for (k, lane) in self.0.lanes[..n].iter().enumerate() {
-            let lane = S::F4::load(lane);
-            for c in 0..3 {
-                sums[c] = sums[c] + S::F4::splat(b[c][k]) * lane;
-            }
-        }
-        sums
+        let b = bernstein::<f64, 1, N>(n, self.1);
+        let [values, first, second] = &b;
+        segment_sums::<S, 1>(&self.0.lanes[..n], [values, first, second])
     }
 }
 
@@ -318,11 +228,9 @@ impl Kernel for SegmentJet<'_> {
         }
         let p = S::F4::load(&[self.2[0], self.2[1], self.2[2], 0.0]);
         let weights = [weight(sums[0]), weight(sums[1]), weight(sums[2])];
-        let (w, w1) = (S::F4::splat(weights[0]), S::F4::splat(weights[1]));
-        let w2 = S::F4::splat(weights[2]);
-        let d = (sums[0] - w * p) / w;
-        let s = (sums[1] - w1 * p - w1 * d) / w;
-        let ss = (sums[2] - w2 * p - S::F4::splat(2.0) * w1 * s - w2 * d) / w;
+        let [w, w1, w2] = weights;
+        let weighting = [S::F4::splat(w), S::F4::splat(w1), S::F4::splat(w2)];
+        let [d, s, ss] = quotients(sums, weighting, p);
         Jet1 { d: vector(d), s: vector(s), ss: vector(ss), w: [weights[0], weights[1]] }
     }
 }
@@ -352,31 +260,11 @@ impl PatchJet<'_> {
     #[inline(always)]
     fn sums_of<S: Simd, const N: usize, const ROWS: usize>(&self) -> [S::F4; 6] {
         let columns = if N > EXACT + 1 { self.0.degree.t + 1 } else { N };
-        let across = bernstein::<ROWS>(self.0.degree.s + 1, self.1[0]);
-        // Sums over the rows, one a column; then sums over the columns.
-        let mut partial = [[S::F4::splat(0.0); N]; 3];
-        for (i, row) in self.0.lanes.chunks_exact(columns).enumerate() {
-            let (b, b1) = (S::F4::splat(across[0][i]), S::F4::splat(across[1][i]));
-            let b2 = S::F4::splat(across[2][i]);
-            for j in 0..columns {
-                let lane = S::F4::load(&row[j]);
-                partial[0][j] = partial[0][j] + b * lane;
-                partial[1][j] = partial[1][j] + b1 * lane;
-                partial[2][j] = partial[2][j] + b2 * lane;
-            }
-        }
-        let along = bernstein::<N>(columns, self.1[1]);
-        let mut sums = [S::F4::splat(0.0); 6];
-        for j in 0..columns {
-            let (value, s, ss) = (partial[0][j], partial[1][j], partial[2][j]);
-            let (b, b1) = (S::F4::splat(along[0][j]), S::F4::splat(along[1][j]));
-            let b2 = S::F4::splat(along[2][j]);
-            let terms = [b * value, b * s, b1 * value, b * ss, b1 * s, b2 * value];
-            for k in 0..6 {
-                sums[k] = sums[k] + terms[k];
-            }
-        }
-        sums
+        let across = bernstein::<f64, 1, ROWS>(self.0.degree.s + 1, self.1[0]);
+        let along = bernstein::<f64, 1, N>(columns, self.1[1]);
+        let [b, b1, b2] = &across;
+        let [c, c1, c2] = &along;
+        patch_sums::<S, N, 1>(self.0.lanes, columns, [b, b1, b2], [c, c1, c2])
     }
 }
 
@@ -419,8 +307,8 @@ impl PatchVector<'_> {
     #[inline(always)]
     fn sum<S: Simd, const ROWS: usize, const N: usize>(&self) -> S::F4 {
         let (rows, columns) = (self.0.degree.s + 1, self.0.degree.t + 1);
-        let [across, ..] = bernstein::<ROWS>(rows, self.1[0]);
-        let [along, ..] = bernstein::<N>(columns, self.1[1]);
+        let [across, ..] = bernstein::<f64, 1, ROWS>(rows, self.1[0]);
+        let [along, ..] = bernstein::<f64, 1, N>(columns, self.1[1]);
         let mut sum = S::F4::splat(0.0);
         for (row, b) in self.0.lanes.chunks_exact(columns).zip(&across) {
             let mut part = S::F4::splat(0.0);
@@ -468,17 +356,11 @@ impl BezierPatch<'_> {
 #[inline(always)]
 fn divided<V: Lanes<4>>(sums: [V; 6], p: Vector) -> Jet2 {
     let p = V::load(&[p[0], p[1], p[2], 0.0]);
-    let two = V::splat(2.0);
     let weights = [weight(sums[0]), weight(sums[1]), weight(sums[2])];
-    let (w, ws) = (V::splat(weights[0]), V::splat(weights[1]));
-    let (wt, wss) = (V::splat(weights[2]), V::splat(weight(sums[3])));
-    let (wst, wtt) = (V::splat(weight(sums[4])), V::splat(weight(sums[5])));
-    let d = (sums[0] - w * p) / w;
-    let s = (sums[1] - ws * p - ws * d) / w;
-    let t = (sums[2] - wt * p - wt * d) / w;
-    let ss = (sums[3] - wss * p - two * ws * s - wss * d) / w;
-    let st = (sums[4] - wst * p - ws * t - wt * s - wst * d) / w;
-    let tt = (sums[5] - wtt * p - two * wt * t - wtt * d) / w;
+    let [w, ws, wt] = [V::splat(weights[0]), V::splat(weights[1]), V::splat(weights[2])];
+    let (wss, wst) = (V::splat(weight(sums[3])), V::splat(weight(sums[4])));
+    let wtt = V::splat(weight(sums[5]));
+    let [d, s, t, ss, st, tt] = quotients_of_two(sums, [w, ws, wt, wss, wst, wtt], p);
     Jet2 {
         d: vector(d),
         s: vector(s),
@@ -492,25 +374,27 @@ fn divided<V: Lanes<4>>(sums: [V; 6], p: Vector) -> Jet2 {
 
 #[cfg(test)]
 mod tests {
+    use super::sums::{Basis, fixed_basis, widened};
     use super::*;
+    use crate::bezier::basis;
     use crate::bounds::scaled;
 
     #[test]
     fn a_basis_without_loops_is_the_basis() {
-        let same = |n: usize, fixed: Basis<6>, s: f64| {
+        let same = |n: usize, fixed: Basis<f64, 6>, s: f64| {
             let mut out = [[0.0; 6]; 3];
             let [values, first, second] = &mut out;
-            basis::<6>(n - 1, s, &mut values[..n], &mut first[..n], &mut second[..n]);
+            basis::<f64, 1, 6>(n - 1, s, &mut values[..n], &mut first[..n], &mut second[..n]);
             for (a, b) in out.iter().flatten().zip(fixed.iter().flatten()) {
                 assert!((a - b).abs() <= 1e-14, "{n} poles, s {s}: {a} {b}");
             }
         };
         for s in [0.0, 0.3, 0.77, 1.0] {
-            same(2, widened::<2, 6>(fixed_basis(s)), s);
-            same(3, widened::<3, 6>(fixed_basis(s)), s);
-            same(4, widened::<4, 6>(fixed_basis(s)), s);
-            same(5, widened::<5, 6>(fixed_basis(s)), s);
-            same(6, widened::<6, 6>(fixed_basis(s)), s);
+            same(2, widened::<f64, 1, 2, 6>(fixed_basis(s)), s);
+            same(3, widened::<f64, 1, 3, 6>(fixed_basis(s)), s);
+            same(4, widened::<f64, 1, 4, 6>(fixed_basis(s)), s);
+            same(5, widened::<f64, 1, 5, 6>(fixed_basis(s)), s);
+            same(6, widened::<f64, 1, 6, 6>(fixed_basis(s)), s);
         }
     }
 

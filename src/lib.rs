@@ -7,6 +7,8 @@ pub mod error;
 
 pub mod portable;
 
+pub mod simd;
+
 pub mod knots;
 
 pub mod basis;
@@ -14,8 +16,6 @@ pub mod basis;
 pub mod curve;
 
 pub mod surface;
-
-pub mod simd;
 
 pub mod bezier;
 

@@ -16,9 +16,11 @@
 //! Limit: where the Hessian is singular the convergence is linear and ends at the step limit.
 
 mod curve;
+mod lockstep;
 mod surface;
 
 pub use curve::{CurveJets, foot_on_curve, land_on_curve};
+pub use lockstep::{Course, CurveSteps, SurfaceSteps, Worth, is_inside};
 pub use surface::{SurfaceJets, foot_on_surface, land_on_surface};
 
 /// Which local iteration is used.
@@ -49,6 +51,26 @@ const MOST_LAST: f64 = 1e-6;
 const ROUNDING: f64 = 1e-16;
 /// A parameter step below this share of the parameter (of the box, on surfaces) is rounding.
 const NO_STEP: f64 = 4e-16;
+
+/// Where an iteration begins, or goes on after others have begun it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Approach<P> {
+    /// Parameters.
+    pub at: P,
+    /// The size of the whole second-order step to this place, if it was one.
+    pub step: Option<f64>,
+    /// Jets taken so far, the one at this place left out: so many steps, each accepted at once.
+    pub taken: u32,
+    /// Whether the iteration ends here.
+    pub is_foot: bool,
+}
+
+impl<P> Approach<P> {
+    /// From a start.
+    pub fn new(at: P) -> Self {
+        Self { at, step: None, taken: 0, is_foot: false }
+    }
+}
 
 /// Where an iteration has ended.
 pub struct Landing<P, J> {

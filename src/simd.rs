@@ -25,7 +25,16 @@ use std::ops::{Add, Div, Mul, Sub};
 
 pub use portable::Portable;
 
-/// A vector of `N` doubles.
+/// Items that are worked on together, one a lane.
+pub const WIDTH: usize = 8;
+
+/// Highest degree of shapes whose queries are.
+pub const MOST_DEGREE: usize = 9;
+
+/// A number of each of them.
+pub type Row = [f64; WIDTH];
+
+/// A vector of `N` doubles; a double is one of one.
 pub trait Lanes<const N: usize>:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
@@ -83,6 +92,16 @@ pub trait Lanes<const N: usize>:
         }
         x[0]
     }
+}
+
+/// Numbers of up to [`WIDTH`] items, lane by lane; of fewer, the first fills the rest.
+#[inline]
+pub fn row<T>(items: &[T], number: impl Fn(&T) -> f64) -> Row {
+    let mut row = [number(&items[0]); WIDTH];
+    for (lane, item) in row.iter_mut().zip(items) {
+        *lane = number(item);
+    }
+    row
 }
 
 /// The vectors of a level. A value of such a type is the proof that the instructions are there.

@@ -19,6 +19,7 @@ use crate::knots::{Knots, MAX_DEGREE, copied};
 
 mod edges;
 mod insertion;
+mod lockstep;
 mod partials;
 
 pub use edges::COLLAPSED_TOLERANCE;
@@ -135,8 +136,8 @@ impl Surface {
         debug_assert!(self.knots_v.contains(v), "v = {v} is outside the domain");
         let spans = [self.knots_u.span(u), self.knots_v.span(v)];
         let (mut basis_u, mut basis_v) = ([0.0; ORDER], [0.0; ORDER]);
-        let basis_u = &mut basis_u[..=self.knots_u.degree()];
-        let basis_v = &mut basis_v[..=self.knots_v.degree()];
+        let basis_u = &mut basis_u[..self.knots_u.degree() + 1];
+        let basis_v = &mut basis_v[..self.knots_v.degree() + 1];
         basis::values(&self.knots_u, spans[0], u, basis_u);
         basis::values(&self.knots_v, spans[1], v, basis_v);
         let reference = self.reference(spans, basis_u, basis_v);

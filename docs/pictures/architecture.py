@@ -2,8 +2,8 @@
 
 ROWS = [
     ("#eceff3", "error portable", "what cannot be answered; portable functions"),
-    ("#dbe9f6", "knots basis curve surface", "checked once, never change"),
-    ("#dbe9f6", "simd bezier bounds", "vector instructions, Bezier pieces, boxes"),
+    ("#dbe9f6", "simd knots basis curve surface", "vector instructions; checked shapes"),
+    ("#dbe9f6", "bezier bounds", "Bezier pieces, boxes"),
     ("#dbe9f6", "coefficients jet tree sparse", "products, derivatives, box tree, equations"),
     ("#d9f0e3", "analytic index", "what is elementary; per shape, built once, shared"),
     ("#fdf0d5", "refine", "fast, may be wrong"),

@@ -4,6 +4,7 @@
 
 use super::proof::Proof;
 use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, scaled, sub};
+use crate::simd::Lanes;
 
 /// Rounding of the coefficients of `N = |r|^2` relative to those of `C = W^2`, as a squared length.
 ///
@@ -148,11 +149,20 @@ pub fn value_at(d: f64, w: f64, position: f64, proof: &Proof) -> f64 {
 ///
 /// With `position` the error of the point, that of the derivative is at most `12 degree position / w` (weights are
 /// at most 2 after normalisation, and the quotient rule has three terms); `w'` is at most `4 degree`.
-pub fn slope_error(d: f64, speed: f64, w: f64, position: f64, degree: usize) -> f64 {
+#[inline(always)]
+pub fn slope_error<V: Lanes<N>, const N: usize>(
+    d: V,
+    speed: V,
+    w: V,
+    position: V,
+    degree: usize,
+) -> V {
     let p = degree as f64;
-    let derivative = 12.0 * p * position / w.min(1.0);
-    let product = position * (speed + derivative) + d * derivative + 16.0 * HALF_ULP * d * speed;
-    4.0 * w * w * product + 16.0 * w * p * d * (position + 1e-14 * d)
+    let derivative = V::splat(12.0 * p) * position / w.min(V::splat(1.0));
+    let rounding = V::splat(16.0 * HALF_ULP) * d * speed;
+    let product = position * (speed + derivative) + d * derivative + rounding;
+    let weighted = V::splat(16.0) * w * V::splat(p) * d * (position + V::splat(1e-14) * d);
+    V::splat(4.0) * w * w * product + weighted
 }
 
 /// The part of a slope that can lower `h`: at the low end only a negative one, at the high end only a positive one.

@@ -1,6 +1,7 @@
 //! Nearest point of a curve.
 
 mod elementary;
+mod lockstep;
 mod ties;
 
 pub use ties::{neighbour, shortest, wrapped};
@@ -9,6 +10,7 @@ use super::certificate::{LEAST_C, squared_error};
 use super::elementary::raise;
 use super::line::{Given, Line, LineMemory, Source, search_line};
 use super::local::{LOCAL_FLAGS, WholeCurve, curve_start};
+use super::lockstep::{Begin, Left};
 use super::proof::{Proof, Site, Watch, note_loose};
 use super::settle::settled_on_curve;
 use super::within::{Within, nothing_within};
@@ -23,7 +25,7 @@ use crate::index::{
     CurveIndex, CurveReach, IndexedCurve, position_error, position_steps, product_steps,
 };
 use crate::jet::{Jet1, place};
-use crate::refine::{Landing, Method, Trace, foot_on_curve, land_on_curve};
+use crate::refine::{Approach, Landing, Method, Trace, foot_on_curve, land_on_curve};
 
 /// A tangent break smaller than this angle (radians) is rounding of the poles, not a crease.
 pub const LEAST_CREASE: f64 = 1e-6;
@@ -51,7 +53,10 @@ impl IndexedCurve {
         let hint = hint.filter(|u| u.is_finite());
         match options.scope {
             Scope::Local => self.local(index, query, hint, options, workspace, trace),
-            Scope::Global => self.global(index, query, hint, None, options, workspace, trace),
+            Scope::Global => {
+                let begin = Begin::at(hint);
+                self.global(index, query, begin, None, options, workspace, trace)
+            }
         }
     }
 
@@ -121,20 +126,37 @@ impl IndexedCurve {
         foot
     }
 
+    /// The global search of a query; `floor`: the gap that rounding leaves to it.
+    fn search<'a>(
+        &'a self,
+        index: &'a CurveIndex,
+        query: Vector,
+        options: &'a QueryOptions,
+        floor: f64,
+    ) -> CurveSearch<'a> {
+        CurveSearch {
+            index,
+            reach: index.reach.as_ref(),
+            whole: self.whole(index, query, floor),
+            query: index.frame.enter(query),
+            range: self.range(options),
+            options,
+            steps: position_steps(index.degree()),
+        }
+    }
+
     /// The global search; `within`: only what is nearer than that counts, see [`nothing_within`].
     pub(super) fn global(
         &self,
         index: &CurveIndex,
         query: Vector,
-        hint: Option<f64>,
+        begin: Begin<f64>,
         within: Option<Within>,
         options: &QueryOptions,
         workspace: &mut Workspace,
         mut trace: Option<Trace>,
     ) -> FootPoint {
         let traced = trace.is_some();
-        let q = index.frame.enter(query);
-        let steps = position_steps(index.degree());
         let floor = Self::floor(index, query);
         let gap = options.accuracy(&index.frame).max(floor);
         let allowed = gap.max(floor + rounding_floor(&index.frame, query, 0.0));
@@ -143,13 +165,14 @@ impl IndexedCurve {
         } else {
             default_budget(2 * index.degree() + 1)
         };
-        let whole = self.whole(index, query, floor);
-        let range = self.range(options);
-        // Where only what is nearer than another shape counts, a foot of this one settles nothing.
-        let reach = index.reach.as_ref().filter(|_| within.is_none());
-        let search = CurveSearch { index, reach, whole, query: q, range, options, steps };
+        let mut search = self.search(index, query, options, floor);
+        let q = search.query;
+        if within.is_some() {
+            // Where only what is nearer than another shape counts, a foot of this one settles nothing.
+            search.reach = None;
+        }
         if !traced && let Some(mut foot) = self.elementary(index, query, &search, (gap, allowed)) {
-            foot.flags |= if hint.is_some() { flag::HINT_USED } else { 0 };
+            foot.flags |= if begin.is_hinted() { flag::HINT_USED } else { 0 };
             return foot;
         }
         let mut tell = |step: u32, site: Site, d: f64| {
@@ -162,10 +185,11 @@ impl IndexedCurve {
         if let Some(within) = within {
             proof.begin_within(within.distance * index.frame.scale, within.direction);
         }
-        if let Some(u) = hint {
-            search.start_at(u, &mut proof);
-        } else if within.is_none() {
-            search.start_near(&mut proof);
+        match begin {
+            Begin::Hint(u) => search.start_at(u, &mut proof),
+            Begin::On(left) => search.resume(left, &mut proof),
+            Begin::Anywhere if within.is_none() => search.start_near(&mut proof),
+            Begin::Anywhere => {}
         }
         search.walk(workspace, &mut proof);
         search.polish(&mut proof);
@@ -195,7 +219,7 @@ impl IndexedCurve {
             foot.flags |= search.ties(workspace, &mut proof);
             foot.iterations = proof.evaluations;
         }
-        if hint.is_some() {
+        if begin.is_hinted() {
             foot.flags |= flag::HINT_USED;
         }
         foot
@@ -336,14 +360,17 @@ impl CurveSearch<'_> {
     }
 
     fn start_at(&self, u: f64, proof: &mut Proof) {
-        let u = u.clamp(self.range[0], self.range[1]);
-        let k = self
-            .index
-            .segments
-            .partition_point(|s| s.u.ends[1] <= u)
-            .min(self.index.segments.len() - 1);
+        let (k, start) = self.place_of(u);
         let Some(range) = self.local_range(k) else { return };
-        self.iterate_from(k, self.index.segments[k].u.local(u), range, proof);
+        self.iterate_from(k, start, range, proof);
+    }
+
+    /// The segment of a parameter, and its local parameter.
+    fn place_of(&self, u: f64) -> (usize, f64) {
+        let u = u.clamp(self.range[0], self.range[1]);
+        let segments = &self.index.segments;
+        let k = segments.partition_point(|s| s.u.ends[1] <= u).min(segments.len() - 1);
+        (k, segments[k].u.local(u))
     }
 
     /// Begins at a place that is likely near, where a foot may settle the search.
@@ -351,16 +378,28 @@ impl CurveSearch<'_> {
         if self.options.method != Method::Auto {
             return;
         }
-        let level = self.index.grid.level;
-        let near = self.reach.and_then(|reach| reach.start(self.query, level));
-        let Some((k, start)) = near.or_else(|| self.guess()) else {
-            return;
-        };
+        let Some((k, start)) = self.near() else { return };
         let Some(range) = self.local_range(k) else { return };
         self.iterate_from(k, start, range, proof);
         if proof.settled.is_none() {
             self.polish(proof);
         }
+    }
+
+    /// Goes on where lanes have left off, as the search of one query does.
+    fn resume(&self, Left { piece, approach, is_hinted }: Left<f64>, proof: &mut Proof) {
+        self.iterate_on(piece, approach, [0.0, 1.0], proof);
+        if !is_hinted && proof.settled.is_none() {
+            self.polish(proof);
+        }
+    }
+
+    /// A place that is likely near.
+    fn near(&self) -> Option<(usize, f64)> {
+        let level = self.index.grid.level;
+        let glance = || self.index.tree.glance(self.query);
+        let near = self.reach.and_then(|reach| reach.start(self.query, level, glance));
+        near.or_else(|| self.guess())
     }
 
     /// The place on the chord of a near segment.
@@ -374,15 +413,20 @@ impl CurveSearch<'_> {
     }
 
     fn iterate_from(&self, k: usize, start: f64, range: [f64; 2], proof: &mut Proof) {
+        self.iterate_on(k, Approach::new(start), range, proof);
+    }
+
+    fn iterate_on(&self, k: usize, from: Approach<f64>, range: [f64; 2], proof: &mut Proof) {
         let view = (self.index.net(k), sub(self.query, self.index.segments[k].center));
         let method = self.options.method;
         let Landing { at, mut seen, mut jet, taken } = match &mut proof.trace {
-            None => land_on_curve(&view, start, range, method),
+            None => land_on_curve(&view, from, range, method),
             Some(watch) => {
                 let mut tell = |step: u32, s: f64, _: f64, d: f64| {
                     watch(step, Site { piece: k, at: [s, 0.0] }, d);
                 };
-                let (at, jet, taken) = foot_on_curve(&view, start, range, method, Some(&mut tell));
+                let (at, jet, taken) =
+                    foot_on_curve(&view, from.at, range, method, Some(&mut tell));
                 Landing { at, seen: at, jet, taken }
             }
         };

@@ -6,6 +6,7 @@ use crate::bezier::Bidegree;
 use crate::bounds::{HALF_ULP, add, cross, dot, norm, scaled, sub};
 use crate::index::{CurveReach, Reach};
 use crate::jet::{Jet1, Jet2};
+use crate::simd::{Kernel, Lanes, Level, Row, Simd, WIDTH};
 
 /// What must be left of `1 - 2 a K`: less says too little of feet that tie.
 const LEAST_ROOM: f64 = 0.0625;
@@ -37,58 +38,193 @@ fn bound(
     position: f64,
     degrees: [usize; 2],
 ) -> Option<f64> {
-    let d = norm(jet.d);
-    let normal = cross(jet.s, jet.t);
-    let tangents = [jet.s, jet.t];
-    let (w, speeds) = (jet.w[0], tangents.map(norm));
-    // `slope_error` bounds more than the rounding of the product of d with a derivative, times w^2.
-    let slacks =
-        [0, 1].map(|k| slope_error(d, speeds[k], w, position, degrees[k]) / (w * w * speeds[k]));
-    // How far along a tangent the query is.
-    let aside = |k: usize| dot(jet.d, tangents[k]).abs() / speeds[k] + slacks[k];
-    let (across, along) = (norm(normal) / speeds[1], norm(normal) / speeds[0]);
-    let turned = 4.0 * (slacks[0] * speeds[0] / across + slacks[1] * speeds[1] / along);
-    let off = position + 1e-9 * d + turned;
-    // The jet looks from the query to the foot.
-    let height = -dot(jet.d, normal) / norm(normal);
-    let [above, below] = reach.bend(k, at);
-    let bend = if height > off {
-        above
-    } else if height < -off {
-        below
-    } else {
-        above.max(below)
-    };
+    let bends = reach.bend(k, at);
     let sides = reach.sides(k, at);
-    let (asked, lost) = match (0..4).find(|&side| sides[side]) {
-        None => {
-            let angle = 1.0 - dot(jet.s, jet.t).abs() / (speeds[0] * speeds[1]);
-            let (a, b) = (aside(0), aside(1));
-            ((d + position) * bend, (a * a + b * b) / (angle * (1.0 - 1e-9)))
-        }
+    let side = (0..4).find(|&side| sides[side]);
+    // Most places that cannot settle are known by what their side of the surface asks at least.
+    let least = bends[0].min(bends[1]);
+    let hopeless = match side {
+        None => room((norm(jet.d) + position) * least) < LEAST_ROOM,
         Some(side) => {
-            let (across, along) = (tangents[side / 2], tangents[1 - side / 2]);
-            let rest = sub(across, scaled(along, dot(across, along) / dot(along, along)));
-            let out = dot(jet.d, rest) / norm(rest) * if side % 2 == 0 { 1.0 } else { -1.0 };
             let corner = (side + 1..4).any(|other| sides[other]);
-            if out.is_nan() || out < 0.0 || corner {
-                return None;
-            }
-            // An outward part that may be none may also be an inward one.
-            let a = aside(1 - side / 2) + if out < off { 2.0 * off } else { 0.0 };
-            ((height.abs() + off) * bend + (out + off) * reach.rim(k, at, side), a * a)
+            corner || least == f64::INFINITY || reach.rim(k, at, side) == f64::INFINITY
         }
     };
-    let room = 1.0 - 2.0 * asked * (1.0 + 1e-12);
-    if room.is_nan() || room < LEAST_ROOM {
+    if hopeless {
         return None;
     }
-    let lost = lost.sqrt() + 2.0 * reach.kink * d + reach.gap;
-    let less = lost * lost / room + 4.0 * reach.gap * d;
-    let square = (d - position).max(0.0) * (1.0 - 8.0 * HALF_ULP);
-    let bound = (square * square - less).max(0.0).sqrt() * (1.0 - 4.0 * HALF_ULP);
+    let look = Look::new([jet.d, jet.s, jet.t], jet.w[0], position, degrees);
+    let Look { d, slacks, speeds, off, height, .. } = look;
+    let Some(side) = side else {
+        let (asked, lost) = (look.asked(bends, position), look.lost());
+        return closed(closing([d, asked, lost, position], [reach.kink, reach.gap]));
+    };
+    let tangents = [jet.s, jet.t];
+    let (across, along) = (tangents[side / 2], tangents[1 - side / 2]);
+    let rest = sub(across, scaled(along, dot(across, along) / dot(along, along)));
+    let out = dot(jet.d, rest) / norm(rest) * if side % 2 == 0 { 1.0 } else { -1.0 };
+    if out.is_nan() || out < 0.0 {
+        return None;
+    }
+    // How far along the side the query is; an outward part that may be none may also be an inward one.
+    let other = 1 - side / 2;
+    let aside = dot(jet.d, along).abs() / speeds[other] + slacks[other];
+    let aside = aside + if out < off { 2.0 * off } else { 0.0 };
+    let asked = (height.abs() + off) * look.bend(bends) + (out + off) * reach.rim(k, at, side);
+    closed(closing([d, asked, aside, position], [reach.kink, reach.gap]))
+}
+
+/// What the jet of a place, or lane by lane of many, says about the query.
+struct Look<V> {
+    /// Distance.
+    d: V,
+    speeds: [V; 2],
+    /// How far the query is aside of the normal, along the tangents, but for rounding.
+    asides: [V; 2],
+    /// The rounding.
+    slacks: [V; 2],
+    /// How far the height may be off.
+    off: V,
+    /// Of the query over the tangent plane, on the side of the normal.
+    height: V,
+    /// One less the cosine of the tangents.
+    angle: V,
+}
+
+impl<V> Look<V> {
+    #[inline(always)]
+    fn new<const N: usize>([d, s, t]: [[V; 3]; 3], w: V, position: V, degrees: [usize; 2]) -> Self
+    where
+        V: Lanes<N>,
+    {
+        let (distance, normal) = (norm(d), cross(s, t));
+        let (area, speeds) = (norm(normal), [norm(s), norm(t)]);
+        // `slope_error` bounds more than the rounding of the product of d with a derivative, times w^2.
+        let slack_s = slope_error(distance, speeds[0], w, position, degrees[0]);
+        let slack_t = slope_error(distance, speeds[1], w, position, degrees[1]);
+        let slacks = [slack_s / (w * w * speeds[0]), slack_t / (w * w * speeds[1])];
+        let (across, along) = (area / speeds[1], area / speeds[0]);
+        let turned = slacks[0] * speeds[0] / across + slacks[1] * speeds[1] / along;
+        let off = position + V::splat(1e-9) * distance + V::splat(4.0) * turned;
+        Self {
+            d: distance,
+            speeds,
+            asides: [dot(d, s).abs() / speeds[0], dot(d, t).abs() / speeds[1]],
+            slacks,
+            off,
+            // The jet looks from the query to the foot.
+            height: V::splat(0.0) - dot(d, normal) / area,
+            angle: V::splat(1.0) - dot(s, t).abs() / (speeds[0] * speeds[1]),
+        }
+    }
+
+    /// The bound K of the side on which the query is; the greater one where that may be either.
+    #[inline(always)]
+    fn bend<const N: usize>(&self, [above, below]: [V; 2]) -> V
+    where
+        V: Lanes<N>,
+    {
+        let either = below.where_less(self.height, V::splat(0.0) - self.off, above.max(below));
+        above.where_less(self.off, self.height, either)
+    }
+
+    /// `|a| K`, for a foot inside.
+    #[inline(always)]
+    fn asked<const N: usize>(&self, bends: [V; 2], position: V) -> V
+    where
+        V: Lanes<N>,
+    {
+        (self.d + position) * self.bend(bends)
+    }
+
+    /// `|e|`, for a foot inside.
+    #[inline(always)]
+    fn lost<const N: usize>(&self) -> V
+    where
+        V: Lanes<N>,
+    {
+        let (a, b) = (self.asides[0] + self.slacks[0], self.asides[1] + self.slacks[1]);
+        ((a * a + b * b) / (self.angle * V::splat(1.0 - 1e-9))).sqrt()
+    }
+}
+
+/// What `|a| K + b K_o` leaves.
+#[inline(always)]
+fn room<V: Lanes<N>, const N: usize>(asked: V) -> V {
+    V::splat(1.0) - V::splat(2.0) * asked * V::splat(1.0 + 1e-12)
+}
+
+/// The bound from d, `|a| K + b K_o`, `|e|` and how far the point may be off; then the room, and all of `|e|`.
+#[inline(always)]
+fn closing<V: Lanes<N>, const N: usize>(
+    [d, asked, lost, position]: [V; 4],
+    [kink, gap]: [f64; 2],
+) -> [V; 3] {
+    let (zero, room) = (V::splat(0.0), room(asked));
+    let lost = lost + V::splat(2.0 * kink) * d + V::splat(gap);
+    let less = lost * lost / room + V::splat(4.0 * gap) * d;
+    let square = (d - position).max(zero) * V::splat(1.0 - 8.0 * HALF_ULP);
+    let bound = (square * square - less).max(zero).sqrt() * V::splat(1.0 - 4.0 * HALF_ULP);
+    [bound, room, lost]
+}
+
+/// The bound, if there is one.
+fn closed([bound, room, lost]: [f64; 3]) -> Option<f64> {
     // Not where the tangents vanish or agree.
-    lost.is_finite().then_some(bound)
+    (room >= LEAST_ROOM && lost.is_finite()).then_some(bound)
+}
+
+/// Places inside of patches whose jets are to settle their queries: lanes of [`settled`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Landed {
+    /// d, s, t.
+    pub jets: [[Row; 3]; 3],
+    /// The weight.
+    pub w: Row,
+    /// How far the point may be off.
+    pub position: Row,
+    /// K for queries on the side of the normal, and on the other.
+    pub bends: [Row; 2],
+}
+
+/// As [`settled`] for each lane: the bounds, and those distances. The places are inside of their patches.
+pub fn settled_together(
+    reach: &Reach,
+    landed: &Landed,
+    degree: Bidegree,
+    level: Level,
+) -> [Option<[f64; 2]>; WIDTH] {
+    let settle = Settle { landed, degrees: [degree.s, degree.t], kink: reach.kink, gap: reach.gap };
+    let [bound, room, lost, d] = level.run(settle);
+    std::array::from_fn(|q| closed([bound[q], room[q], lost[q]]).map(|bound| [bound, d[q]]))
+}
+
+struct Settle<'a> {
+    landed: &'a Landed,
+    degrees: [usize; 2],
+    kink: f64,
+    gap: f64,
+}
+
+impl Kernel for Settle<'_> {
+    type Out = [Row; 4];
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) -> [Row; 4] {
+        let Landed { jets, w, position, bends } = self.landed;
+        let mut vectors = [[S::F8::splat(0.0); 3]; 3];
+        for k in 0..3 {
+            for c in 0..3 {
+                vectors[k][c] = S::F8::load(&jets[k][c]);
+            }
+        }
+        let position = S::F8::load(position);
+        let look = Look::new(vectors, S::F8::load(w), position, self.degrees);
+        let asked = look.asked([S::F8::load(&bends[0]), S::F8::load(&bends[1])], position);
+        let lost = look.lost();
+        let [bound, room, lost] = closing([look.d, asked, lost, position], [self.kink, self.gap]);
+        [bound.array(), room.array(), lost.array(), look.d.array()]
+    }
 }
 
 /// As [`settled`], for a curve.

@@ -1,12 +1,14 @@
 //! Nearest point of a surface.
 
 mod elementary;
+mod lockstep;
 mod record;
 mod rescue;
 mod ties;
 
 use super::elementary::raise;
 use super::local::{LOCAL_FLAGS, WholeSurface, surface_start};
+use super::lockstep::{Begin, Left};
 use super::patch::{Far, PatchMemory, Sheet, search_patch};
 use super::proof::{Proof, Site, Watch, note_loose};
 use super::settle::settled;
@@ -20,7 +22,7 @@ use crate::bounds::{HALF_ULP, Vector, add, dot, norm, scaled, sub};
 use crate::error::Error;
 use crate::index::{IndexedSurface, Reach, Span, SurfaceIndex, position_error, position_steps};
 use crate::jet::{Jet2, place};
-use crate::refine::{Landing, Method, Trace, foot_on_surface, land_on_surface};
+use crate::refine::{Approach, Landing, Method, Trace, foot_on_surface, land_on_surface};
 
 /// Boxes that one patch may take before the others have had their turn: a difficult patch that does not even
 /// hold the foot must not use up the budget. One query in a thousand gets here.
@@ -50,7 +52,10 @@ impl IndexedSurface {
         let hint = hint.filter(|at| at.iter().all(|x| x.is_finite()));
         match options.scope {
             Scope::Local => self.local(index, query, hint, options, workspace, trace),
-            Scope::Global => self.global(index, query, hint, None, options, workspace, trace),
+            Scope::Global => {
+                let begin = Begin::at(hint);
+                self.global(index, query, begin, None, options, workspace, trace)
+            }
         }
     }
 
@@ -129,32 +134,50 @@ impl IndexedSurface {
         foot
     }
 
+    /// The global search of a query; `floor`: the gap that rounding leaves to it.
+    fn search<'a>(
+        &'a self,
+        index: &'a SurfaceIndex,
+        query: Vector,
+        options: &'a QueryOptions,
+        floor: f64,
+    ) -> SurfaceSearch<'a> {
+        SurfaceSearch {
+            index,
+            reach: index.reach.as_ref(),
+            whole: self.whole(index, query, floor),
+            query: index.frame.enter(query),
+            range: self.range(options),
+            options,
+            steps: position_steps(index.degree.s + index.degree.t),
+        }
+    }
+
     /// The global search; `within`: only what is nearer than that counts, see [`nothing_within`].
     pub(super) fn global(
         &self,
         index: &SurfaceIndex,
         query: Vector,
-        hint: Option<[f64; 2]>,
+        begin: Begin<[f64; 2]>,
         within: Option<Within>,
         options: &QueryOptions,
         workspace: &mut Workspace,
         mut trace: Option<Trace>,
     ) -> FootPoint {
         let traced = trace.is_some();
-        let q = index.frame.enter(query);
-        let steps = position_steps(index.degree.s + index.degree.t);
         let floor = Self::floor(index, query);
         let gap = options.accuracy(&index.frame).max(floor);
         let allowed = gap.max(floor + rounding_floor(&index.frame, query, 0.0));
         let coefficients = index.degree.times(index.degree).count();
         let budget = if options.budget > 0 { options.budget } else { default_budget(coefficients) };
-        let whole = self.whole(index, query, floor);
-        let range = self.range(options);
-        // Where only what is nearer than another shape counts, a foot of this one settles nothing.
-        let reach = index.reach.as_ref().filter(|_| within.is_none());
-        let search = SurfaceSearch { index, reach, whole, query: q, range, options, steps };
+        let mut search = self.search(index, query, options, floor);
+        let q = search.query;
+        if within.is_some() {
+            // Where only what is nearer than another shape counts, a foot of this one settles nothing.
+            search.reach = None;
+        }
         if !traced && let Some(mut foot) = self.elementary(index, query, &search, (gap, allowed)) {
-            foot.flags |= if hint.is_some() { flag::HINT_USED } else { 0 };
+            foot.flags |= if begin.is_hinted() { flag::HINT_USED } else { 0 };
             return foot;
         }
         let mut tell = |step: u32, site: Site, d: f64| {
@@ -168,10 +191,11 @@ impl IndexedSurface {
         if let Some(within) = within {
             proof.begin_within(within.distance * index.frame.scale, within.direction);
         }
-        if let Some(at) = hint {
-            search.start_at(at, &mut proof);
-        } else if within.is_none() {
-            search.start_near(&mut proof);
+        match begin {
+            Begin::Hint(at) => search.start_at(at, &mut proof),
+            Begin::On(left) => search.resume(left, &mut proof),
+            Begin::Anywhere if within.is_none() => search.start_near(&mut proof),
+            Begin::Anywhere => {}
         }
         search.walk(workspace, &mut proof);
         search.polish(&mut proof);
@@ -203,7 +227,7 @@ impl IndexedSurface {
             foot.flags |= search.ties(workspace, &mut proof);
             foot.iterations = proof.evaluations;
         }
-        if hint.is_some() {
+        if begin.is_hinted() {
             foot.flags |= flag::HINT_USED;
         }
         foot
@@ -281,6 +305,13 @@ impl SurfaceSearch<'_> {
     }
 
     fn start_at(&self, at: [f64; 2], proof: &mut Proof) {
+        let (k, start) = self.place_of(at);
+        let Some(range) = self.local_range(k) else { return };
+        self.iterate_from(k, start, range, self.options.method, proof);
+    }
+
+    /// The patch of a parameter pair, and its local parameters.
+    fn place_of(&self, at: [f64; 2]) -> (usize, [f64; 2]) {
         let at =
             [at[0].clamp(self.range[0], self.range[1]), at[1].clamp(self.range[2], self.range[3])];
         // The last row that begins at or before it.
@@ -293,15 +324,8 @@ impl SurfaceSearch<'_> {
         let column =
             self.index.patches[..self.index.columns - 1].partition_point(|p| p.v.ends[1] <= at[1]);
         let k = row * self.index.columns + column;
-        let Some(range) = self.local_range(k) else { return };
         let patch = &self.index.patches[k];
-        self.iterate_from(
-            k,
-            [patch.u.local(at[0]), patch.v.local(at[1])],
-            range,
-            self.options.method,
-            proof,
-        );
+        (k, [patch.u.local(at[0]), patch.v.local(at[1])])
     }
 
     /// Begins at a place that is likely near, where a foot may settle the search.
@@ -309,16 +333,28 @@ impl SurfaceSearch<'_> {
         if self.options.method != Method::Auto {
             return;
         }
-        let level = self.index.grid.level;
-        let near = self.reach.and_then(|reach| reach.start(self.query, level));
-        let Some((k, start)) = near.or_else(|| self.guess()) else {
-            return;
-        };
+        let Some((k, start)) = self.near() else { return };
         let Some(range) = self.local_range(k) else { return };
         self.iterate_from(k, start, range, Method::Auto, proof);
         if proof.settled.is_none() {
             self.cross(proof);
         }
+    }
+
+    /// Goes on where lanes have left off, as the search of one query does.
+    fn resume(&self, Left { piece, approach, is_hinted }: Left<[f64; 2]>, proof: &mut Proof) {
+        self.iterate_on(piece, approach, [0.0, 1.0, 0.0, 1.0], Method::Auto, proof);
+        if !is_hinted && proof.settled.is_none() {
+            self.cross(proof);
+        }
+    }
+
+    /// A place that is likely near.
+    fn near(&self) -> Option<(usize, [f64; 2])> {
+        let level = self.index.grid.level;
+        let glance = || self.index.tree.glance(self.query);
+        let near = self.reach.and_then(|reach| reach.start(self.query, level, glance));
+        near.or_else(|| self.guess())
     }
 
     /// The place on the plane through the corners of a near patch.
@@ -413,15 +449,26 @@ impl SurfaceSearch<'_> {
         method: Method,
         proof: &mut Proof,
     ) {
+        self.iterate_on(k, Approach::new(start), range, method, proof);
+    }
+
+    fn iterate_on(
+        &self,
+        k: usize,
+        from: Approach<[f64; 2]>,
+        range: [f64; 4],
+        method: Method,
+        proof: &mut Proof,
+    ) {
         let view = (self.index.net(k), sub(self.query, self.index.patches[k].center));
         let Landing { at, mut seen, mut jet, taken } = match &mut proof.trace {
-            None => land_on_surface(&view, start, range, method),
+            None => land_on_surface(&view, from, range, method),
             Some(watch) => {
                 let mut tell = |step: u32, s: f64, t: f64, d: f64| {
                     watch(step, Site { piece: k, at: [s, t] }, d);
                 };
                 let (at, jet, taken) =
-                    foot_on_surface(&view, start, range, method, Some(&mut tell));
+                    foot_on_surface(&view, from.at, range, method, Some(&mut tell));
                 Landing { at, seen: at, jet, taken }
             }
         };

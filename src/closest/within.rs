@@ -3,6 +3,7 @@
 //! A search over many shapes has a foot already when it comes to the next of them. That foot's distance closes boxes from
 //! the beginning, and so does the plane through it; most shapes are left after a look at the root of their tree.
 
+use super::lockstep::Begin;
 use super::proof::Proof;
 use super::{FootPoint, QueryOptions, Workspace, flag, rounding_floor};
 use crate::bounds::{Vector, dot};
@@ -67,7 +68,7 @@ impl IndexedCurve {
         let window = options.accuracy(frame).max(floor);
         let allowed = window.max(floor + rounding_floor(frame, query, 0.0));
         let within = widened(within, window, frame, query);
-        let foot = self.global(index, query, hint, within, options, workspace, None);
+        let foot = self.global(index, query, Begin::at(hint), within, options, workspace, None);
         Found { foot, window, allowed }
     }
 }
@@ -90,7 +91,7 @@ impl IndexedSurface {
         let window = options.accuracy(frame).max(floor);
         let allowed = window.max(floor + rounding_floor(frame, query, 0.0));
         let within = widened(within, window, frame, query);
-        let foot = self.global(index, query, hint, within, options, workspace, None);
+        let foot = self.global(index, query, Begin::at(hint), within, options, workspace, None);
         Found { foot, window, allowed }
     }
 }

@@ -3,6 +3,7 @@
 
 use super::{Differences, Grid, LANES, padded};
 use crate::bounds::Vector;
+use crate::knots::MAX_DEGREE;
 use crate::simd::{Kernel, Lanes, Simd};
 
 /// Eight values from number `at` on.
@@ -10,7 +11,7 @@ use crate::simd::{Kernel, Lanes, Simd};
 /// # Safety
 /// `at + 8` is at most the length: kernels check lengths once, not at every load.
 #[inline(always)]
-unsafe fn eight<S: Simd>(values: &[f64], at: usize) -> S::F8 {
+pub(super) unsafe fn eight<S: Simd>(values: &[f64], at: usize) -> S::F8 {
     debug_assert!(at + LANES <= values.len());
     // SAFETY: the caller's.
     S::F8::load(unsafe { &*values.as_ptr().add(at).cast() })
@@ -21,7 +22,7 @@ unsafe fn eight<S: Simd>(values: &[f64], at: usize) -> S::F8 {
 /// # Safety
 /// As [`eight`].
 #[inline(always)]
-unsafe fn store<S: Simd>(vector: S::F8, values: &mut [f64], at: usize) {
+pub(super) unsafe fn store<S: Simd>(vector: S::F8, values: &mut [f64], at: usize) {
     debug_assert!(at + LANES <= values.len());
     // SAFETY: the caller's.
     vector.store(unsafe { &mut *values.as_mut_ptr().add(at).cast() });
@@ -286,99 +287,6 @@ impl Kernel for Extremes<'_> {
     }
 }
 
-/// A slot split at the middle of one direction.
-pub struct Halve<'a> {
-    pub grid: &'a Grid,
-    pub direction: usize,
-    pub low: &'a mut [f64],
-    pub high: &'a mut [f64],
-}
-
-impl Halve<'_> {
-    /// One array; returns the least of both halves.
-    #[inline(always)]
-    fn array<S: Simd>(
-        grid: &Grid,
-        direction: usize,
-        low: &mut [f64],
-        high: &mut [f64],
-    ) -> [f64; 2] {
-        let (count, width) = (grid.count, grid.width());
-        let half = S::F8::splat(0.5);
-        let (n, back) = if direction == 0 { (grid.degree.s, width) } else { (grid.degree.t, 1) };
-        let rank = if direction == 0 { &grid.row } else { &grid.column };
-        assert!(low.len() >= grid.stride && high.len() >= grid.stride);
-        for level in 0..n {
-            Self::keep(grid, direction, n - level, low, high);
-            let first = if direction == 0 { (level + 1) * width / LANES * LANES } else { 0 };
-            let reached = S::F8::splat(level as f64);
-            // From the end, so that what a vector reads before itself is of the level before.
-            let mut k = padded(count);
-            while k > first {
-                k -= LANES;
-                // SAFETY: the lengths were checked. Along s, k >= first > width - 8, so that nothing is read before the
-                // room in front.
-                unsafe {
-                    let x = eight::<S>(low, LANES + k);
-                    let y = eight::<S>(low, LANES + k - back);
-                    let rank = eight::<S>(rank, k);
-                    let mean = (half * (x + y)).where_less(reached, rank, x);
-                    store::<S>(mean, low, LANES + k);
-                }
-            }
-        }
-        Self::keep(grid, direction, 0, low, high);
-        [Self::least::<S>(grid, low), Self::least::<S>(grid, high)]
-    }
-
-    #[inline(always)]
-    fn least<S: Simd>(grid: &Grid, array: &[f64]) -> f64 {
-        let mut least = S::F8::splat(f64::INFINITY);
-        let mut k = 0;
-        while k < grid.count {
-            // SAFETY: the caller has checked the length.
-            unsafe {
-                let x = eight::<S>(array, LANES + k);
-                least = (x + eight::<S>(&grid.value, k)).min(least);
-            }
-            k += LANES;
-        }
-        least.least()
-    }
-
-    /// The last row or column of `low` becomes number `place` of `high`.
-    #[inline(always)]
-    fn keep(grid: &Grid, direction: usize, place: usize, low: &[f64], high: &mut [f64]) {
-        let width = grid.width();
-        if direction == 0 {
-            let last = LANES + grid.degree.s * width;
-            let to = LANES + place * width;
-            high[to..to + width].copy_from_slice(&low[last..last + width]);
-        } else {
-            let (last, size) = (grid.degree.t, grid.count);
-            let (low, high) = (&low[LANES..][..size], &mut high[LANES..][..size]);
-            for (to, from) in high.chunks_exact_mut(width).zip(low.chunks_exact(width)) {
-                to[place] = from[last];
-            }
-        }
-    }
-}
-
-impl Kernel for Halve<'_> {
-    type Out = [f64; 2];
-
-    #[inline(always)]
-    fn run<S: Simd>(self, _: S) -> [f64; 2] {
-        let stride = self.grid.stride;
-        if self.grid.rational {
-            let (low, high) = (&mut self.low[stride..], &mut self.high[stride..]);
-            Self::array::<S>(self.grid, self.direction, low, high);
-        }
-        let (low, high) = (&mut self.low[..stride], &mut self.high[..stride]);
-        Self::array::<S>(self.grid, self.direction, low, high)
-    }
-}
-
 /// Products of a net with itself.
 pub struct Square<'a> {
     pub grid: &'a Grid,
@@ -386,27 +294,43 @@ pub struct Square<'a> {
     pub slot: &'a mut [f64],
 }
 
-impl Square<'_> {
-    /// The sum over all pairs of poles whose indices add up to (m, n), the symmetric ones once.
-    #[inline(always)]
-    fn sum<S: Simd>(net: &[[f64; 4]], rows: usize, columns: usize, m: usize, n: usize) -> S::F4 {
-        let mut sum = S::F4::splat(0.0);
-        let first = n.saturating_sub(columns - 1);
-        for i in m.saturating_sub(rows - 1)..=m / 2 {
-            let (a, b) = (i * columns, (m - i) * columns);
-            let last = if 2 * i == m { n.div_ceil(2) } else { n.min(columns - 1) + 1 };
-            let mut part = S::F4::splat(0.0);
-            let (a, b) = (&net[a + first..a + last.max(first)], &net[b..b + n - first + 1]);
-            for (x, y) in a.iter().zip(b.iter().rev()) {
-                part = part + S::F4::load(x) * S::F4::load(y);
-            }
-            sum = sum + (part + part);
-            if 2 * i == m && n.is_multiple_of(2) {
-                let middle = S::F4::load(&net[i * columns + n / 2]);
-                sum = sum + middle * middle;
-            }
+/// Outputs that are formed together, and room for as many zeros less one on both sides of a row.
+const BLOCK: usize = 4;
+const ROOM: usize = BLOCK - 1;
+
+/// Most coefficients of a row, and of a row of products, in whole blocks.
+const MOST: usize = MAX_DEGREE + 1;
+const MOST_PRODUCTS: usize = 2 * MOST + ROOM;
+
+/// Adds the product of row `a`, taken `times`, and of a row of as many columns that has [`ROOM`] on both sides.
+#[inline(always)]
+fn add_product<S: Simd>(
+    a: &[[f64; 4]],
+    b: &[[f64; 4]; MOST + 2 * ROOM],
+    times: f64,
+    sums: &mut [S::F4; MOST_PRODUCTS],
+) {
+    let columns = a.len();
+    let times = S::F4::splat(times);
+    let mut n = 0;
+    while n < 2 * columns - 1 {
+        let (mut p, mut q) = (sums[n], sums[n + 1]);
+        let (mut r, mut s) = (sums[n + 2], sums[n + 3]);
+        let first = (n + 1).saturating_sub(columns);
+        let last = (n + BLOCK).min(columns);
+        for j in first..last {
+            let x = S::F4::load(&a[j]) * times;
+            // Column n - j of b.
+            let b = &b[ROOM + n - j..];
+            let b = &b[..BLOCK];
+            p = p + x * S::F4::load(&b[0]);
+            q = q + x * S::F4::load(&b[1]);
+            r = r + x * S::F4::load(&b[2]);
+            s = s + x * S::F4::load(&b[3]);
         }
-        sum
+        (sums[n], sums[n + 1]) = (p, q);
+        (sums[n + 2], sums[n + 3]) = (r, s);
+        n += BLOCK;
     }
 }
 
@@ -420,11 +344,22 @@ impl Kernel for Square<'_> {
         for (lane, up) in net.iter_mut().zip(&grid.up) {
             (S::F4::load(lane) * S::F4::splat(*up)).store(lane);
         }
+        let mut sums = [S::F4::splat(0.0); MOST_PRODUCTS];
+        let mut row = [[0.0; 4]; MOST + 2 * ROOM];
         let mut k = 0;
         for m in 0..=grid.degree.s {
-            for n in 0..=grid.degree.t {
-                let sum = Self::sum::<S>(net, rows, columns, m, n);
-                let [x, y, z, w] = (sum * S::F4::splat(grid.down[k])).array();
+            for sum in &mut sums[..grid.width()] {
+                *sum = S::F4::splat(0.0);
+            }
+            // Pairs of rows whose numbers add up to m, the symmetric ones once.
+            for i in m.saturating_sub(rows - 1)..=m / 2 {
+                let (a, b) = (i * columns, (m - i) * columns);
+                row[ROOM..ROOM + columns].copy_from_slice(&net[b..b + columns]);
+                let times = if 2 * i == m { 1.0 } else { 2.0 };
+                add_product::<S>(&net[a..a + columns], &row, times, &mut sums);
+            }
+            for sum in &sums[..grid.width()] {
+                let [x, y, z, w] = (*sum * S::F4::splat(grid.down[k])).array();
                 slot[LANES + k] = (x + y) + z;
                 if grid.rational {
                     slot[grid.stride + LANES + k] = w;

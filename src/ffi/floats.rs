@@ -32,7 +32,8 @@ pub unsafe extern "C" fn fpt_curve_closest_f32(
     // SAFETY: the header asks for a live handle and arrays of these lengths that do not overlap.
     guard(|| unsafe {
         let curve = curve::form(curve)?;
-        Batch::read(curve, points, count, options, out)?.run(CurveForm::closest)
+        Batch::read(curve, points, count, options, out)?
+            .run_together(CurveForm::closest, CurveForm::closest_together)
     })
 }
 
@@ -58,7 +59,8 @@ pub unsafe extern "C" fn fpt_curve_invert_f32(
     // SAFETY: the header asks for a live handle and arrays of these lengths that do not overlap.
     guard(|| unsafe {
         let curve = curve::form(curve)?;
-        Batch::read(curve, points, count, options, out)?.run(CurveForm::invert)
+        Batch::read(curve, points, count, options, out)?
+            .run_together(CurveForm::invert, CurveForm::invert_together)
     })
 }
 
@@ -84,7 +86,8 @@ pub unsafe extern "C" fn fpt_surface_closest_f32(
     // SAFETY: the header asks for a live handle and arrays of these lengths that do not overlap.
     guard(|| unsafe {
         let surface = surface::form(surface)?;
-        Batch::read(surface, points, count, options, out)?.run(SurfaceForm::closest)
+        Batch::read(surface, points, count, options, out)?
+            .run_together(SurfaceForm::closest, SurfaceForm::closest_together)
     })
 }
 
@@ -110,6 +113,7 @@ pub unsafe extern "C" fn fpt_surface_invert_f32(
     // SAFETY: the header asks for a live handle and arrays of these lengths that do not overlap.
     guard(|| unsafe {
         let surface = surface::form(surface)?;
-        Batch::read(surface, points, count, options, out)?.run(SurfaceForm::invert)
+        Batch::read(surface, points, count, options, out)?
+            .run_together(SurfaceForm::invert, SurfaceForm::invert_together)
     })
 }

@@ -146,6 +146,42 @@ impl CurveForm {
         }
     }
 
+    pub(super) fn closest_together(
+        &self,
+        asked: &dyn Fn(usize) -> ([f64; 3], Option<[f64; 1]>),
+        options: &QueryOptions,
+        workspace: &mut Workspace,
+        out: &mut [FootPoint],
+    ) {
+        match self {
+            Self::Spline(curve) => curve.closest_together(asked, options, workspace, out),
+            Self::Function(_) => {
+                for (k, foot) in out.iter_mut().enumerate() {
+                    let (query, hint) = asked(k);
+                    *foot = self.closest(query, hint, options, workspace, None);
+                }
+            }
+        }
+    }
+
+    pub(super) fn invert_together(
+        &self,
+        asked: &dyn Fn(usize) -> ([f64; 3], Option<[f64; 1]>),
+        options: &QueryOptions,
+        workspace: &mut Workspace,
+        out: &mut [FootPoint],
+    ) {
+        match self {
+            Self::Spline(curve) => curve.invert_together(asked, options, workspace, out),
+            Self::Function(_) => {
+                for (k, foot) in out.iter_mut().enumerate() {
+                    let (query, hint) = asked(k);
+                    *foot = self.invert(query, hint, options, workspace, None);
+                }
+            }
+        }
+    }
+
     pub(super) fn preimage(
         &self,
         query: [f64; 3],
@@ -287,6 +323,42 @@ impl SurfaceForm {
         match self {
             Self::Spline(surface) => surface.invert(query, hint, options, workspace, trace),
             Self::Function(surface) => surface.invert(query, hint, options, trace),
+        }
+    }
+
+    pub(super) fn closest_together(
+        &self,
+        asked: &dyn Fn(usize) -> ([f64; 3], Option<[f64; 2]>),
+        options: &QueryOptions,
+        workspace: &mut Workspace,
+        out: &mut [FootPoint],
+    ) {
+        match self {
+            Self::Spline(surface) => surface.closest_together(asked, options, workspace, out),
+            Self::Function(_) => {
+                for (k, foot) in out.iter_mut().enumerate() {
+                    let (query, hint) = asked(k);
+                    *foot = self.closest(query, hint, options, workspace, None);
+                }
+            }
+        }
+    }
+
+    pub(super) fn invert_together(
+        &self,
+        asked: &dyn Fn(usize) -> ([f64; 3], Option<[f64; 2]>),
+        options: &QueryOptions,
+        workspace: &mut Workspace,
+        out: &mut [FootPoint],
+    ) {
+        match self {
+            Self::Spline(surface) => surface.invert_together(asked, options, workspace, out),
+            Self::Function(_) => {
+                for (k, foot) in out.iter_mut().enumerate() {
+                    let (query, hint) = asked(k);
+                    *foot = self.invert(query, hint, options, workspace, None);
+                }
+            }
         }
     }
 

@@ -3,7 +3,7 @@
 use super::curve::{self, fpt_curve};
 use super::memory::{array, optional_output, write};
 use super::options::fpt_query_options;
-use super::query::Batch;
+use super::query::{Batch, Together};
 use super::records::fpt_foot_point;
 use super::surface::{self, fpt_surface};
 use super::{Failure, fpt_status, guard};
@@ -107,7 +107,8 @@ pub unsafe extern "C" fn fpt_curve_path(
         let curve = curve::indexed(curve)?;
         let mut batch: Batch<IndexedCurve, 1> = Batch::read(curve, points, count, options, out)?;
         let output = path_output(out_unwrapped.cast(), out_changes, count)?;
-        batch.answer(|c, q, h, o, w, t| c.invert(q, h.map(|[u]| u), o, w, t))?;
+        let together = Some(IndexedCurve::invert_together as Together<_, _, 1>);
+        batch.answer(|c, q, h, o, w, t| c.invert(q, h.map(|[u]| u), o, w, t), together)?;
         let Batch { shape, points, options, callbacks, out, .. } = batch;
         let mut poll = || callbacks.poll(count, count);
         Ok(shape.join(&|i| points.row(i), out, &options, output, &mut poll)?)
@@ -143,7 +144,7 @@ pub unsafe extern "C" fn fpt_surface_path(
         let mut batch: Batch<IndexedSurface, 2> =
             Batch::read(surface, points, count, options, out)?;
         let output = path_output(out_unwrapped.cast(), out_changes, count)?;
-        batch.answer(IndexedSurface::invert)?;
+        batch.answer(IndexedSurface::invert, Some(IndexedSurface::invert_together))?;
         let Batch { shape, points, options, callbacks, out, .. } = batch;
         let mut poll = || callbacks.poll(count, count);
         Ok(shape.join(&|i| points.row(i), out, &options, output, &mut poll)?)

@@ -10,7 +10,7 @@ use super::options::fpt_query_options;
 use super::records::{feet, fpt_foot_point};
 use super::surface::{self, fpt_surface};
 use super::{Failure, fpt_status, guard};
-use crate::batch::{self, Memory};
+use crate::batch::{self, Memory, Work};
 use crate::closest::{FootPoint, QueryOptions, Trace};
 use crate::error::Error;
 use crate::index::{IndexedCurve, IndexedSurface};
@@ -39,7 +39,8 @@ pub unsafe extern "C" fn fpt_curve_closest(
     // SAFETY: the header asks for a live handle and arrays of these lengths that do not overlap.
     guard(|| unsafe {
         let curve = curve::form(curve)?;
-        Batch::read(curve, points, count, options, out)?.run(CurveForm::closest)
+        Batch::read(curve, points, count, options, out)?
+            .run_together(CurveForm::closest, CurveForm::closest_together)
     })
 }
 
@@ -63,7 +64,8 @@ pub unsafe extern "C" fn fpt_curve_invert(
     // SAFETY: the header asks for a live handle and arrays of these lengths that do not overlap.
     guard(|| unsafe {
         let curve = curve::form(curve)?;
-        Batch::read(curve, points, count, options, out)?.run(CurveForm::invert)
+        Batch::read(curve, points, count, options, out)?
+            .run_together(CurveForm::invert, CurveForm::invert_together)
     })
 }
 
@@ -90,7 +92,8 @@ pub unsafe extern "C" fn fpt_surface_closest(
     // SAFETY: the header asks for a live handle and arrays of these lengths that do not overlap.
     guard(|| unsafe {
         let surface = surface::form(surface)?;
-        Batch::read(surface, points, count, options, out)?.run(SurfaceForm::closest)
+        Batch::read(surface, points, count, options, out)?
+            .run_together(SurfaceForm::closest, SurfaceForm::closest_together)
     })
 }
 
@@ -114,7 +117,8 @@ pub unsafe extern "C" fn fpt_surface_invert(
     // SAFETY: the header asks for a live handle and arrays of these lengths that do not overlap.
     guard(|| unsafe {
         let surface = surface::form(surface)?;
-        Batch::read(surface, points, count, options, out)?.run(SurfaceForm::invert)
+        Batch::read(surface, points, count, options, out)?
+            .run_together(SurfaceForm::invert, SurfaceForm::invert_together)
     })
 }
 
@@ -219,6 +223,53 @@ impl<S, W, F, const N: usize> Ask<S, W, N> for F where
 {
 }
 
+/// The same operation on many query points, bit for bit: told a point and its hint by number.
+pub(super) type Together<S, W, const N: usize> =
+    fn(&S, &dyn Fn(usize) -> ([f64; 3], Option<[f64; N]>), &QueryOptions, &mut W, &mut [FootPoint]);
+
+/// One operation on many query points, one by one or, if there is a way to, together.
+struct Asking<'a, S, F, W, const N: usize> {
+    shape: &'a S,
+    points: &'a Strided<'a, 3>,
+    hints: Option<&'a Strided<'a, N>>,
+    ends: [[f64; 2]; N],
+    options: &'a QueryOptions,
+    callbacks: &'a Callbacks,
+    ask: F,
+    together: Option<Together<S, W, N>>,
+}
+
+impl<S, F, W, const N: usize> Asking<'_, S, F, W, N> {
+    fn query(&self, i: usize) -> ([f64; 3], Option<[f64; N]>) {
+        let hint = self.hints.and_then(|hints| hint(hints.row(i), self.ends));
+        (self.points.row(i), hint)
+    }
+}
+
+impl<S: Shape<N>, F: Ask<S, W, N>, W, const N: usize> Work<W> for Asking<'_, S, F, W, N> {
+    fn one(&self, i: usize, workspace: &mut W) -> FootPoint {
+        let (point, hint) = self.query(i);
+        let mut told = |step, u, v, residual| self.callbacks.trace(i, step, [u, v], residual);
+        let trace: Option<Trace<'_>> =
+            if self.callbacks.trace.is_some() { Some(&mut told) } else { None };
+        (self.ask)(self.shape, point, hint, self.options, workspace, trace)
+    }
+
+    fn group(&self, numbers: &[usize], workspace: &mut W, out: &mut [FootPoint]) {
+        match self.together.filter(|_| numbers.len() > 1 && self.callbacks.trace.is_none()) {
+            Some(together) => {
+                let asked = |k: usize| self.query(numbers[k]);
+                together(self.shape, &asked, self.options, workspace, out);
+            }
+            None => {
+                for (record, &number) in out.iter_mut().zip(numbers) {
+                    *record = self.one(number, workspace);
+                }
+            }
+        }
+    }
+}
+
 /// The checked arguments of one call.
 pub(super) struct Batch<'a, S, const N: usize> {
     pub(super) shape: &'a S,
@@ -265,8 +316,25 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
     }
 
     /// Asks `ask`, one operation on one query point, for every record; `W` is what a thread works with.
-    pub(super) fn run<W: Memory>(mut self, ask: impl Ask<S, W, N>) -> Result<(), Failure> {
-        self.answer(ask)?;
+    pub(super) fn run<W: Memory>(self, ask: impl Ask<S, W, N>) -> Result<(), Failure> {
+        self.run_all(ask, None)
+    }
+
+    /// The same with a way to ask for many at once.
+    pub(super) fn run_together<W: Memory>(
+        self,
+        ask: impl Ask<S, W, N>,
+        together: Together<S, W, N>,
+    ) -> Result<(), Failure> {
+        self.run_all(ask, Some(together))
+    }
+
+    fn run_all<W: Memory>(
+        mut self,
+        ask: impl Ask<S, W, N>,
+        together: Option<Together<S, W, N>>,
+    ) -> Result<(), Failure> {
+        self.answer(ask, together)?;
         let total = self.out.len();
         if total > 0 {
             self.callbacks.report(total, total);
@@ -275,7 +343,11 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
     }
 
     /// As [`Self::run`], without the last report: more is to be done.
-    pub(super) fn answer<W: Memory>(&mut self, ask: impl Ask<S, W, N>) -> Result<(), Failure> {
+    pub(super) fn answer<W: Memory>(
+        &mut self,
+        ask: impl Ask<S, W, N>,
+        together: Option<Together<S, W, N>>,
+    ) -> Result<(), Failure> {
         let Self { shape, points, hints, ends, options, threads, callbacks, out } = self;
         let total = out.len();
         if total == 0 {
@@ -286,13 +358,9 @@ impl<'a, S: Shape<N>, const N: usize> Batch<'a, S, N> {
             out.fill(FootPoint::unreached());
         }
         built?;
-        let work = |i: usize, workspace: &mut W| {
-            let hint = hints.as_ref().and_then(|hints| hint(hints.row(i), *ends));
-            let mut told = |step, u, v, residual| callbacks.trace(i, step, [u, v], residual);
-            let trace: Option<Trace<'_>> =
-                if callbacks.trace.is_some() { Some(&mut told) } else { None };
-            ask(shape, points.row(i), hint, options, workspace, trace)
-        };
+        let (shape, ends) = (*shape, *ends);
+        let (hints, options, callbacks) = (hints.as_ref(), &*options, &*callbacks);
+        let work = Asking { shape, points, hints, ends, options, callbacks, ask, together };
         let at = |i: usize| points.row(i);
         let sorts = total > batch::GROUP && shape.is_large();
         let place: Option<batch::Place> = if sorts { Some(&at) } else { None };

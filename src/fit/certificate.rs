@@ -53,7 +53,8 @@ pub(super) fn feet(
     let mut out = Vec::new();
     out.try_reserve_exact(count).map_err(|_| Error::OutOfMemory)?;
     out.resize(count, FootPoint::unreached());
-    batch::run(&mut out, threads, None, ask, &mut |_| poll())?;
+    let ask = |i: usize, workspace: &mut Workspace| ask(i, workspace);
+    batch::run(&mut out, threads, None, &ask, &mut |_| poll())?;
     Ok(out)
 }
 

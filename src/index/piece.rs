@@ -101,6 +101,11 @@ impl Span {
         (u0 + s * (u1 - u0)).clamp(u0, u1)
     }
 
+    /// Whether a parameter of the caller is inside, apart from the ends.
+    pub fn holds(&self, u: f64) -> bool {
+        self.ends[0] < u && u < self.ends[1]
+    }
+
     /// The local parameter of the caller's one, moved into [0, 1].
     pub fn local(&self, u: f64) -> f64 {
         self.local_and_rest(u)[0]

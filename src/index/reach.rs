@@ -47,6 +47,9 @@ use std::sync::{Mutex, PoisonError};
 const TILE: usize = 256;
 const MANY: usize = 16;
 
+/// How far from a line between patches an iteration begins: on it, it would be held.
+const OFF_LINE: f64 = 1.0 / 64.0;
+
 /// Bounds are rounded up by this share.
 const MARGIN: f64 = 1.0 + 1e-6;
 
@@ -168,13 +171,35 @@ impl Reach {
         f64::from(self.rims[side][cell[1 - side / 2]])
     }
 
-    /// A place near a query: a patch and local parameters. `None` where there are too many cells to look at.
-    pub fn start(&self, query: Vector, level: Level) -> Option<(usize, [f64; 2])> {
-        let (near, [s, t]) = self.middles.nearest(query, level)?;
+    /// A place near a query: a patch and local parameters, inside but on the sides of the surface. `near` tells a patch that is
+    /// near, where there are too many cells to look at.
+    pub fn start(
+        &self,
+        query: Vector,
+        level: Level,
+        near: impl FnOnce() -> Option<usize>,
+    ) -> Option<(usize, [f64; 2])> {
         let width = self.raster.starts[1][self.columns] as usize;
-        let (row, s) = self.raster.place(0, near / width, s);
-        let (column, t) = self.raster.place(1, near % width, t);
-        Some((row * self.columns + column, [s, t]))
+        let climb = || {
+            let [i, j] = self.raster.cell(self.patch(near()?), [0.5; 2]);
+            Some(self.middles.climb(i * width + j, width, query))
+        };
+        let (cell, at) = self.middles.nearest(query, level).or_else(climb)?;
+        let (row, s) = self.raster.place(0, cell / width, at[0]);
+        let (column, t) = self.raster.place(1, cell % width, at[1]);
+        Some((row * self.columns + column, [self.within(0, row, s), self.within(1, column, t)]))
+    }
+
+    /// A local parameter of a row (0) or column (1) of patches moved off the lines where others go on.
+    fn within(&self, k: usize, patch: usize, at: f64) -> f64 {
+        let last = self.raster.starts[k].len() - 2;
+        if at == 0.0 && (patch > 0 || self.seamless[k]) {
+            OFF_LINE
+        } else if at == 1.0 && (patch < last || self.seamless[k]) {
+            1.0 - OFF_LINE
+        } else {
+            at
+        }
     }
 
     /// Bytes held.

@@ -349,7 +349,7 @@ const CLOSE: f64 = 1e-2;
 fn value_on(coefficients: &[f64], x: f64) -> f64 {
     let mut rows = [[0.0; MAX_PRODUCT]; 3];
     let [a, a1, a2] = &mut rows;
-    basis::<MAX_PRODUCT>(coefficients.len() - 1, x, a, a1, a2);
+    basis::<f64, 1, MAX_PRODUCT>(coefficients.len() - 1, x, a, a1, a2);
     coefficients.iter().zip(&*a).map(|(c, d)| c * d).sum()
 }
 
@@ -359,7 +359,7 @@ fn nearest_to_zero(coefficients: &[f64], low: f64, high: f64) -> f64 {
     let slope = |x: f64| {
         let mut rows = [[0.0; MAX_PRODUCT]; 3];
         let [a, a1, a2] = &mut rows;
-        basis::<MAX_PRODUCT>(n, x, a, a1, a2);
+        basis::<f64, 1, MAX_PRODUCT>(n, x, a, a1, a2);
         coefficients.iter().zip(&*a1).map(|(c, d)| c * d).sum::<f64>()
     };
     let width = high - low;

@@ -124,8 +124,8 @@ struct Area {
 pub fn value(values: &[f64], degree: Bidegree, at: [f64; 2]) -> f64 {
     let mut rows = [[0.0; MAX_PRODUCT]; 6];
     let [a, a1, a2, b, b1, b2] = &mut rows;
-    basis::<MAX_PRODUCT>(degree.s, at[0], a, a1, a2);
-    basis::<MAX_PRODUCT>(degree.t, at[1], b, b1, b2);
+    basis::<f64, 1, MAX_PRODUCT>(degree.s, at[0], a, a1, a2);
+    basis::<f64, 1, MAX_PRODUCT>(degree.t, at[1], b, b1, b2);
     let row = |r: &[f64]| r.iter().zip(&*b).map(|(c, b)| c * b).sum::<f64>();
     values.chunks_exact(degree.t + 1).zip(&*a).map(|(r, a)| a * row(r)).sum()
 }

@@ -1,6 +1,7 @@
 //! The vector to a point of a patch with its first derivatives: what a ray needs.
 
-use super::{BezierPatch, EXACT, FIXED, MIDDLE, bernstein, vector, weight};
+use super::sums::{EXACT, FIXED, MIDDLE, bernstein};
+use super::{BezierPatch, vector, weight};
 use crate::bounds::{Vector, sub};
 use crate::knots::MAX_DEGREE;
 use crate::simd::{Kernel, Lanes, Simd};
@@ -23,8 +24,8 @@ impl PatchSlopes<'_> {
     #[inline(always)]
     fn sums<S: Simd, const ROWS: usize, const N: usize>(&self) -> [S::F4; 3] {
         let columns = if N > EXACT + 1 { self.0.degree.t + 1 } else { N };
-        let across = bernstein::<ROWS>(self.0.degree.s + 1, self.1[0]);
-        let along = bernstein::<N>(columns, self.1[1]);
+        let across = bernstein::<f64, 1, ROWS>(self.0.degree.s + 1, self.1[0]);
+        let along = bernstein::<f64, 1, N>(columns, self.1[1]);
         let zero = S::F4::splat(0.0);
         let mut partial = [[zero; N]; 2];
         for (i, row) in self.0.lanes.chunks_exact(columns).enumerate() {

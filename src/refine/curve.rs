@@ -1,6 +1,6 @@
 //! Foot points on curves.
 
-use super::{Landing, Method, NO_STEP, Trace, arc_ratio, is_last};
+use super::{Approach, Landing, Method, NO_STEP, Trace, arc_ratio, is_last};
 use crate::bounds::{Vector, dot, scaled, sub};
 use crate::jet::{BezierSegment, Jet1};
 
@@ -36,23 +36,25 @@ pub fn foot_on_curve(
     method: Method,
     trace: Option<Trace>,
 ) -> (f64, Jet1, u32) {
-    let Landing { at, jet, taken, .. } = iterate(curve, start, range, method, trace, true);
+    let from = Approach::new(start);
+    let Landing { at, jet, taken, .. } = iterate(curve, from, range, method, trace, true);
     (at, jet, taken)
 }
 
-/// As [`foot_on_curve`], but the foot need not have been looked at: a jet less.
+/// As [`foot_on_curve`], but the foot need not have been looked at: a jet less. An iteration that goes on takes the same steps as
+/// the whole one.
 pub fn land_on_curve(
     curve: &impl CurveJets,
-    start: f64,
+    from: Approach<f64>,
     range: [f64; 2],
     method: Method,
 ) -> Landing<f64, Jet1> {
-    iterate(curve, start, range, method, None, false)
+    iterate(curve, from, range, method, None, false)
 }
 
 fn iterate(
     curve: &impl CurveJets,
-    start: f64,
+    from: Approach<f64>,
     range: [f64; 2],
     method: Method,
     mut trace: Option<Trace>,
@@ -60,12 +62,14 @@ fn iterate(
 ) -> Landing<f64, Jet1> {
     let [low, high] = range;
     let width = high - low;
-    let mut before = None;
-    let mut s = start.clamp(low, high);
+    let mut before = from.step;
+    let mut s = from.at.clamp(low, high);
     let mut jet = curve.jet(s);
-    let mut taken = 1;
+    let mut taken = from.taken + 1;
     tell(&mut trace, curve, 0, s, &jet);
-    for step in 1..=method.steps() {
+    let steps = if from.is_foot { 0 } else { method.steps() };
+    let first = taken;
+    for step in first..=steps {
         let g = jet.gradient();
         if g == 0.0 || (s <= low && g > 0.0) || (s >= high && g < 0.0) {
             break;
@@ -84,10 +88,7 @@ fn iterate(
         let mut candidate = curve.jet(next);
         taken += 1;
         for _ in 0..12 {
-            if last
-                || candidate.squared() < jet.squared()
-                || candidate.gradient().abs() < 0.5 * g.abs() && near(&candidate, &jet)
-            {
+            if last || is_better(worth(&candidate), worth(&jet)) {
                 break;
             }
             next = s + 0.5 * (next - s);
@@ -107,9 +108,16 @@ fn iterate(
     Landing { at: s, seen: s, jet, taken }
 }
 
-/// Whether two squared distances differ by rounding only; then the gradient decides which is better.
-fn near(a: &Jet1, b: &Jet1) -> bool {
-    (a.squared() - b.squared()).abs() <= 1e-13 * b.squared() + 1e-28
+/// Squared distance and gradient.
+fn worth(jet: &Jet1) -> [f64; 2] {
+    [jet.squared(), jet.gradient()]
+}
+
+/// Whether a place, by its squared distance and gradient, is better than the one before: nearer, or as near but for rounding
+/// with a gradient less than half as steep.
+pub(super) fn is_better([a, new]: [f64; 2], [b, old]: [f64; 2]) -> bool {
+    let is_near = || (a - b).abs() <= 1e-13 * b + 1e-28;
+    a < b || new.abs() < 0.5 * old.abs() && is_near()
 }
 
 fn tell(trace: &mut Option<Trace>, curve: &impl CurveJets, step: u32, s: f64, jet: &Jet1) {

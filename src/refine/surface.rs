@@ -1,8 +1,9 @@
 //! Foot points on surfaces.
 
-use super::{Landing, Method, NO_STEP, Trace, arc_ratio, is_last};
+use super::{Approach, Landing, Method, NO_STEP, Trace, arc_ratio, is_last};
 use crate::bounds::{Vector, cross, dot};
 use crate::jet::{BezierPatch, Jet2};
+use crate::simd::Lanes;
 
 /// What the iteration asks of a surface.
 pub trait SurfaceJets {
@@ -33,9 +34,9 @@ const DAMPING: [f64; 6] = [0.0, 1e-3, 0.1, 1.0, 30.0, 1e3];
 const LEAST_PROMISE: f64 = 1e-11;
 
 /// A parameter pair, its box and which of the two is held at a border.
-struct State {
-    at: [f64; 2],
-    range: [f64; 4],
+pub(super) struct State {
+    pub at: [f64; 2],
+    pub range: [f64; 4],
 }
 
 impl State {
@@ -60,7 +61,7 @@ impl State {
     }
 
     /// The point `share` of the way along `step`, inside the box.
-    fn moved(&self, step: [f64; 2], share: f64) -> [f64; 2] {
+    pub fn moved(&self, step: [f64; 2], share: f64) -> [f64; 2] {
         [0, 1].map(|k| (self.at[k] + share * step[k]).clamp(self.low(k), self.high(k)))
     }
 
@@ -74,7 +75,7 @@ impl State {
     }
 
     /// Greatest move, as a share of the box.
-    fn size(&self, to: [f64; 2]) -> f64 {
+    pub fn size(&self, to: [f64; 2]) -> f64 {
         let share = |k: usize| {
             if self.width(k) > 0.0 { (to[k] - self.at[k]).abs() / self.width(k) } else { 0.0 }
         };
@@ -92,35 +93,39 @@ pub fn foot_on_surface(
     method: Method,
     trace: Option<Trace>,
 ) -> ([f64; 2], Jet2, u32) {
-    let Landing { at, jet, taken, .. } = iterate(surface, start, range, method, trace, true);
+    let from = Approach::new(start);
+    let Landing { at, jet, taken, .. } = iterate(surface, from, range, method, trace, true);
     (at, jet, taken)
 }
 
-/// As [`foot_on_surface`], but the foot need not have been looked at: a jet less.
+/// As [`foot_on_surface`], but the foot need not have been looked at: a jet less. An iteration that goes on takes the same steps as
+/// the whole one.
 pub fn land_on_surface(
     surface: &impl SurfaceJets,
-    start: [f64; 2],
+    from: Approach<[f64; 2]>,
     range: [f64; 4],
     method: Method,
 ) -> Landing<[f64; 2], Jet2> {
-    iterate(surface, start, range, method, None, false)
+    iterate(surface, from, range, method, None, false)
 }
 
 fn iterate(
     surface: &impl SurfaceJets,
-    start: [f64; 2],
+    from: Approach<[f64; 2]>,
     range: [f64; 4],
     method: Method,
     mut trace: Option<Trace>,
     look: bool,
 ) -> Landing<[f64; 2], Jet2> {
-    let mut before = None;
-    let mut state = State { at: start, range };
+    let mut before = from.step;
+    let mut state = State { at: from.at, range };
     state.at = state.moved([0.0; 2], 0.0);
     let mut place = Place::new(surface.jet(state.at[0], state.at[1]));
-    let mut taken = 1;
+    let mut taken = from.taken + 1;
     tell(&mut trace, surface, 0, state.at, &place);
-    for count in 1..=method.steps() {
+    let steps = if from.is_foot { 0 } else { method.steps() };
+    let first = taken;
+    for count in first..=steps {
         let held = state.held(place.g);
         let Some((step, second_order)) = bounded_step(&state, &place, method) else { break };
         let whole = state.moved(step, 1.0);
@@ -176,11 +181,55 @@ struct Place {
 
 impl Place {
     fn new(jet: Jet2) -> Self {
-        let (squared, g, metric) = (jet.squared(), jet.gradient(), jet.metric());
-        let [e, f, h] = metric;
-        let hessian = [e + dot(jet.d, jet.ss), f + dot(jet.d, jet.st), h + dot(jet.d, jet.tt)];
+        let Products { squared, g, metric, hessian } =
+            Products::new([jet.d, jet.s, jet.t, jet.ss, jet.st, jet.tt]);
         Self { jet, squared, g, metric, hessian }
     }
+}
+
+/// The products of one jet or, lane by lane, of many.
+pub(super) struct Products<V> {
+    pub squared: V,
+    pub g: [V; 2],
+    pub metric: [V; 3],
+    pub hessian: [V; 3],
+}
+
+impl<V> Products<V> {
+    /// From d, s, t, ss, st, tt.
+    #[inline(always)]
+    pub fn new<const N: usize>([d, s, t, ss, st, tt]: [[V; 3]; 6]) -> Self
+    where
+        V: Lanes<N>,
+    {
+        let metric = [dot(s, s), dot(s, t), dot(t, t)];
+        let [e, f, h] = metric;
+        let hessian = [e + dot(d, ss), f + dot(d, st), h + dot(d, tt)];
+        Self { squared: dot(d, d), g: [dot(d, s), dot(d, t)], metric, hessian }
+    }
+}
+
+/// What the gradient is worth beside the metric: tells which of two places as near as the other is the better one.
+#[inline(always)]
+pub(super) fn steepness<V: Lanes<N>, const N: usize>(g: V, size: V) -> V {
+    g * g / (size + V::splat(1e-300))
+}
+
+/// The determinant of a Hessian, and the least one that counts as positive.
+#[inline(always)]
+pub(super) fn determinant<V: Lanes<N>, const N: usize>([a, b, c]: [V; 3]) -> [V; 2] {
+    [a * c - b * b, V::splat(1e-14) * a * c]
+}
+
+/// The squared length of a step on the tangent plane, and the greatest that is plausible: on a plane the foot is one
+/// distance away at most, so a step of many distances comes from a Hessian that is nearly singular.
+#[inline(always)]
+pub(super) fn stride<V: Lanes<N>, const N: usize>(
+    [e, f, g]: [V; 3],
+    [x, y]: [V; 2],
+    squared: V,
+) -> [V; 2] {
+    [e * x * x + V::splat(2.0) * f * x * y + g * y * y, V::splat(64.0) * squared]
 }
 
 /// A much shorter step, where the gradient promises something: models fail where derivatives nearly vanish.
@@ -226,17 +275,21 @@ fn advance(
 
 /// Nearer, or as near as rounding can tell and with a smaller gradient in the parameters that are free.
 fn improved(new: &Place, old: &Place, held: [bool; 2]) -> bool {
-    let (a, b) = (new.squared, old.squared);
-    if a < b - 1e-13 * b {
-        return true;
-    }
     let steepness = |place: &Place| {
-        let ([x, y], [e, _, g]) = (place.g, place.metric);
         let share =
-            |held: bool, x: f64, size: f64| if held { 0.0 } else { x * x / (size + 1e-300) };
-        share(held[0], x, e) + share(held[1], y, g)
+            |k: usize| if held[k] { 0.0 } else { steepness(place.g[k], place.metric[2 * k]) };
+        share(0) + share(1)
     };
-    a <= b + 1e-13 * b + 1e-28 && steepness(new) < steepness(old)
+    is_better([new.squared, old.squared], || [steepness(new), steepness(old)])
+}
+
+/// The same from the squared distances and the steepness of the new and the old place.
+pub(super) fn is_better([a, b]: [f64; 2], steepness: impl FnOnce() -> [f64; 2]) -> bool {
+    let flatter = || {
+        let [new, old] = steepness();
+        new < old
+    };
+    a < b - 1e-13 * b || a <= b + 1e-13 * b + 1e-28 && flatter()
 }
 
 fn tell(
@@ -300,9 +353,10 @@ fn single(jet: &Jet2, k: usize, method: Method) -> ([f64; 2], bool) {
 /// The step of a method with both parameters free, and whether it is of second order here.
 fn free_step(place: &Place, method: Method) -> ([f64; 2], bool) {
     let (g, jet) = (place.g, &place.jet);
-    let [a, b, c] = place.hessian;
-    let newton = a > 0.0 && c > 0.0 && a * c - b * b > 1e-14 * a * c;
-    let step = solved([a, b, c], g);
+    let [a, _, c] = place.hessian;
+    let [determinant, least] = determinant(place.hessian);
+    let newton = a > 0.0 && c > 0.0 && determinant > least;
+    let step = solved(place.hessian, g);
     match method {
         Method::Auto if newton && is_plausible(place, step) => (step, true),
         Method::Newton if newton => (step, true),
@@ -311,15 +365,14 @@ fn free_step(place: &Place, method: Method) -> ([f64; 2], bool) {
     }
 }
 
-/// Whether a step moves the point by a few distances at most: on a plane the foot is one distance away at most, so
-/// a longer step comes from a Hessian that is nearly singular.
-fn is_plausible(place: &Place, [x, y]: [f64; 2]) -> bool {
-    let [e, f, g] = place.metric;
-    e * x * x + 2.0 * f * x * y + g * y * y <= 64.0 * place.squared
+fn is_plausible(place: &Place, step: [f64; 2]) -> bool {
+    let [square, most] = stride(place.metric, step, place.squared);
+    square <= most
 }
 
 /// `-M^-1 g` for a symmetric positive definite 2 x 2 matrix.
-fn solved([a, b, c]: [f64; 3], g: [f64; 2]) -> [f64; 2] {
+#[inline(always)]
+pub(super) fn solved<V: Lanes<N>, const N: usize>([a, b, c]: [V; 3], g: [V; 2]) -> [V; 2] {
     let det = a * c - b * b;
     [(b * g[1] - c * g[0]) / det, (b * g[0] - a * g[1]) / det]
 }

@@ -265,8 +265,8 @@ impl Walk<'_, '_> {
     fn values(&self, x: [f64; 2]) -> [[f64; 3]; 2] {
         let mut arrays = [[0.0; MAX_TRIPLE]; 6];
         let [a, a1, a2, b, b1, b2] = &mut arrays;
-        basis::<MAX_TRIPLE>(self.degree.s, x[0], a, a1, a2);
-        basis::<MAX_TRIPLE>(self.degree.t, x[1], b, b1, b2);
+        basis::<f64, 1, MAX_TRIPLE>(self.degree.s, x[0], a, a1, a2);
+        basis::<f64, 1, MAX_TRIPLE>(self.degree.t, x[1], b, b1, b2);
         let width = self.degree.t + 1;
         [0, 1].map(|k| {
             let mut sum = [0.0; 3];

@@ -41,6 +41,54 @@ macro_rules! lanewise {
 
 lanewise! { Add, add, +; Sub, sub, -; Mul, mul, *; Div, div, /; }
 
+/// One double: what single queries and what lanes of many compute is one body.
+impl Lanes<1> for f64 {
+    #[inline(always)]
+    fn load(values: &[f64; 1]) -> Self {
+        values[0]
+    }
+
+    #[inline(always)]
+    fn store(self, out: &mut [f64; 1]) {
+        out[0] = self;
+    }
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        value
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        if self < other { self } else { other }
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        if self > other { self } else { other }
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f64::abs(self)
+    }
+
+    #[inline(always)]
+    fn where_less(self, a: Self, b: Self, other: Self) -> Self {
+        if a < b { self } else { other }
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+
+    #[inline(always)]
+    fn less(self, other: Self) -> u32 {
+        u32::from(self < other)
+    }
+}
+
 impl<const N: usize> Lanes<N> for Array<N> {
     #[inline(always)]
     fn load(values: &[f64; N]) -> Self {

@@ -47,6 +47,16 @@ impl Walk<'_, '_, '_> {
         let (range, first) = if along_s { (area.s, side::S0) } else { (area.t, side::T0) };
         let border =
             [0, 1].map(|e| self.sheet.border[first + e] && range[e] == self.sheet.range[first + e]);
+        let known = self.proof.site.filter(|best| {
+            let at = best.at[usize::from(!along_s)];
+            best.piece == self.sheet.piece
+                && best.at[k / 2] == ends[k]
+                && (range[0]..=range[1]).contains(&at)
+        });
+        let foot = known.and_then(|best| {
+            let jet = self.proof.jet_at(best)?;
+            Some((best.at[usize::from(!along_s)], jet.along(usize::from(!along_s))))
+        });
         let mut memory = std::mem::take(&mut self.memory.edge);
         let p = self.edge_net(k, ends[k], &mut memory);
         let components = if self.sheet.net.rational { 4 } else { 3 };
@@ -87,7 +97,7 @@ impl Walk<'_, '_, '_> {
         };
         let c = if rational { &c[..] } else { &[] };
         let source = Source::Products(n, c);
-        let given = Given { source, error: area.error, radius: area.radius, foot: None };
+        let given = Given { source, error: area.error, radius: area.radius, foot };
         let before = self.proof.best;
         search_line(&line, &given, &mut self.memory.line, self.proof);
         self.memory.edge = memory;
@@ -125,6 +135,21 @@ impl Walk<'_, '_, '_> {
         let (rows, columns) = (degree.s + 1, degree.t + 1);
         let across_s = k == side::S0 || k == side::S1;
         let size = if across_s { columns } else { rows };
+        if x == 0.0 || x == 1.0 {
+            let (first, step) = match k {
+                side::S0 => (0, 1),
+                side::S1 => (degree.s * columns, 1),
+                side::T0 => (0, columns),
+                _ => (degree.t, columns),
+            };
+            let components = self.sheet.net.poles.chunks_exact(rows * columns);
+            for (component, edge) in components.zip(out.chunks_exact_mut(size)) {
+                for (i, pole) in edge.iter_mut().enumerate() {
+                    *pole = component[first + i * step];
+                }
+            }
+            return size - 1;
+        }
         for (component, edge) in
             self.sheet.net.poles.chunks_exact(rows * columns).zip(out.chunks_exact_mut(size))
         {

@@ -9,10 +9,10 @@
 //!   is continuous, whatever the parameters are.
 //! - x elsewhere: from boxes around cells and groups of them.
 
-use super::MARGIN;
 use super::arc::{Arc, Bow, parts, push_arcs};
 use super::groups::{Groups, View};
 use super::middles::Middles;
+use super::{MARGIN, OFF_LINE};
 use crate::bounds::{Vector, add, cross, dot, norm, scaled, sub};
 use crate::error::Error;
 use crate::index::piece::{position_error, position_steps, reserved};
@@ -163,12 +163,34 @@ impl CurveReach {
         }
     }
 
-    /// A place near a query: a segment and a local parameter. `None` where there are too many cells to look at.
-    pub fn start(&self, query: Vector, level: Level) -> Option<(usize, f64)> {
-        let (near, [at, _]) = self.middles.nearest(query, level)?;
+    /// A place near a query: a segment and a local parameter, inside but at the ends of the curve. `near` tells a segment that
+    /// is near, where there are too many cells to look at.
+    pub fn start(
+        &self,
+        query: Vector,
+        level: Level,
+        near: impl FnOnce() -> Option<usize>,
+    ) -> Option<(usize, f64)> {
+        let climb = || {
+            let [first, next] = {
+                let k = near()?;
+                [0, 1].map(|n| self.starts[k + n] as usize)
+            };
+            Some(self.middles.climb(first.midpoint(next), self.cells.len(), query))
+        };
+        let (near, [at, _]) = self.middles.nearest(query, level).or_else(climb)?;
         let k = self.starts.partition_point(|&first| first as usize <= near) - 1;
         let [first, next] = [0, 1].map(|n| self.starts[k + n] as usize);
-        Some((k, ((near - first) as f64 + at) / (next - first) as f64))
+        let at = ((near - first) as f64 + at) / (next - first) as f64;
+        let last = self.starts.len() - 2;
+        let at = if at == 0.0 && k > 0 {
+            OFF_LINE
+        } else if at == 1.0 && k < last {
+            1.0 - OFF_LINE
+        } else {
+            at
+        };
+        Some((k, at))
     }
 
     /// Bytes held.

@@ -5,8 +5,11 @@ use crate::error::Error;
 use crate::index::piece::reserved;
 use crate::simd::{Kernel, Level, Simd};
 
-/// Most cells that are all looked at; of more, the tree tells which are near.
+/// Most cells that are all looked at; of more, those around a near patch are climbed over.
 const MOST: usize = 256;
+
+/// Steps of a climb.
+const CLIMB: usize = 8;
 
 /// Cells that are looked at together.
 const WIDTH: usize = 16;
@@ -21,7 +24,7 @@ pub struct Middle {
     pub steps: [Vector; 2],
 }
 
-/// The middles of all cells, where there are few.
+/// The middles of all cells.
 #[derive(Clone, Debug, Default)]
 pub struct Middles {
     blocks: Vec<Block>,
@@ -35,9 +38,6 @@ impl Middles {
     /// [`Error::OutOfMemory`].
     pub fn new(cells: impl ExactSizeIterator<Item = Middle>) -> Result<Self, Error> {
         let count = cells.len();
-        if count > MOST {
-            return Ok(Self::default());
-        }
         let mut blocks: Vec<Block> = reserved(count.div_ceil(WIDTH))?;
         let mut steps = reserved(count)?;
         for (k, cell) in cells.enumerate() {
@@ -52,20 +52,53 @@ impl Middles {
     }
 
     /// The nearest one, the first of equals, and the place in it from which to begin, in widths from its start; `None` where
-    /// there are none.
+    /// there are too many.
     pub fn nearest(&self, query: Vector, level: Level) -> Option<(usize, [f64; 2])> {
-        if self.blocks.is_empty() {
+        if self.steps.is_empty() || self.steps.len() > MOST {
             return None;
         }
-        let query = [query[0] as f32, query[1] as f32, query[2] as f32];
+        let query = query.map(|x| x as f32);
         let at = level.run(Nearest { blocks: &self.blocks, query });
+        Some((at, self.place(at, query)))
+    }
+
+    /// As [`Self::nearest`], from a cell on to nearer ones beside it, where `width` cells are a row.
+    pub fn climb(&self, from: usize, width: usize, query: Vector) -> (usize, [f64; 2]) {
+        let query = query.map(|x| x as f32);
+        let (mut at, mut square) = (from, self.square(from, query));
+        let height = self.steps.len() / width;
+        for _ in 0..CLIMB {
+            let (mut next, [i, j]) = (at, [at / width, at % width]);
+            for (i, j) in [(i.wrapping_sub(1), j), (i + 1, j), (i, j.wrapping_sub(1)), (i, j + 1)] {
+                if i < height && j < width && self.square(i * width + j, query) < square {
+                    (next, square) = (i * width + j, self.square(i * width + j, query));
+                }
+            }
+            if next == at {
+                break;
+            }
+            at = next;
+        }
+        (at, self.place(at, query))
+    }
+
+    fn from(&self, at: usize, query: [f32; 3]) -> [f32; 3] {
         let block = &self.blocks[at / WIDTH];
-        let from = [0, 1, 2].map(|c| query[c] - block[c][at % WIDTH]);
-        let place = self.steps[at].map(|step| {
+        [0, 1, 2].map(|c| query[c] - block[c][at % WIDTH])
+    }
+
+    fn square(&self, at: usize, query: [f32; 3]) -> f32 {
+        let [x, y, z] = self.from(at, query);
+        x * x + y * y + z * z
+    }
+
+    /// The place in a cell from which to begin, in widths from its start.
+    fn place(&self, at: usize, query: [f32; 3]) -> [f64; 2] {
+        let from = self.from(at, query);
+        self.steps[at].map(|step| {
             let off = step[0] * from[0] + step[1] * from[1] + step[2] * from[2];
             if off.is_nan() { 0.5 } else { f64::from(0.5 + off.clamp(-0.5, 0.5)) }
-        });
-        Some((at, place))
+        })
     }
 
     /// Bytes held.
@@ -128,6 +161,9 @@ mod tests {
                 }
             }
         }
-        assert!(middles(257).unwrap().nearest([0.0; 3], Level::detect()).is_none());
+        let many = middles(280).unwrap();
+        assert!(many.nearest([0.0; 3], Level::detect()).is_none());
+        let (at, from) = many.climb(0, 35, [1.125, 1.125, 6.125]);
+        assert!(at >= 35 && from.iter().all(|x| (0.0..=1.0).contains(x)), "{at} {from:?}");
     }
 }

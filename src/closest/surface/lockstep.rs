@@ -1,0 +1,257 @@
+//! Many queries on a surface at once.
+
+use crate::bounds::{Vector, norm, sub};
+use crate::closest::lockstep::{Begin, Fate, Flight, Landing, Left, NOWHERE, SurfaceMemory, rows};
+use crate::closest::settle::settled_together;
+use crate::closest::{
+    FootPoint, QueryOptions, Scope, Workspace, bounded, distance, flag, is_bad, mark_inversion,
+    rounding_floor,
+};
+use crate::index::{IndexedSurface, Reach, SurfaceIndex, position_error};
+use crate::refine::{Approach, Method, is_inside};
+use crate::simd::{MOST_DEGREE, WIDTH, row};
+
+/// What is asked of a query, by its number.
+pub type Asked<'a> = &'a dyn Fn(usize) -> (Vector, Option<[f64; 2]>);
+
+impl IndexedSurface {
+    /// As [`Self::closest`] for the queries 0, 1, ... of `out`, bit for bit, in less time.
+    ///
+    /// `asked` tells a query and its hint. No memory is asked for once the workspace has held as many queries.
+    pub fn closest_together(
+        &self,
+        asked: Asked,
+        options: &QueryOptions,
+        workspace: &mut Workspace,
+        out: &mut [FootPoint],
+    ) {
+        let memory = workspace.lockstep.surface.get_or_insert_default();
+        let mut alone = std::mem::take(&mut memory.alone);
+        alone.clear();
+        if !self.fly(asked, options, memory, &mut alone, out) {
+            for (number, foot) in out.iter_mut().enumerate() {
+                let (query, hint) = asked(number);
+                *foot = self.closest(query, hint, options, workspace, None);
+            }
+        }
+        for &(number, left) in &alone {
+            let (query, hint) = asked(number);
+            out[number] = match (left, self.index(&mut || false)) {
+                (Some(left), Ok(index)) => {
+                    self.global(index, query, Begin::On(left), None, options, workspace, None)
+                }
+                _ => self.closest(query, hint, options, workspace, None),
+            };
+        }
+        workspace.lockstep.surface.get_or_insert_default().alone = alone;
+    }
+
+    /// As [`Self::invert`] for each, see [`Self::closest_together`].
+    pub fn invert_together(
+        &self,
+        asked: Asked,
+        options: &QueryOptions,
+        workspace: &mut Workspace,
+        out: &mut [FootPoint],
+    ) {
+        self.closest_together(asked, options, workspace, out);
+        if let Ok(index) = self.index(&mut || false) {
+            let tolerance = options.tolerance(&index.frame);
+            for foot in out.iter_mut().filter(|foot| foot.distance.is_finite()) {
+                mark_inversion(foot, tolerance);
+            }
+        }
+    }
+
+    /// Answers what lanes can and notes the rest; false where that is all.
+    fn fly(
+        &self,
+        asked: Asked,
+        options: &QueryOptions,
+        memory: &mut SurfaceMemory,
+        alone: &mut Vec<(usize, Option<Left<[f64; 2]>>)>,
+        out: &mut [FootPoint],
+    ) -> bool {
+        let Ok(index) = self.index(&mut || false) else { return false };
+        let Some(reach) = &index.reach else { return false };
+        let plain = options.scope == Scope::Global
+            && options.method == Method::Auto
+            && options.domain.is_none();
+        let degree = index.degree.s.max(index.degree.t);
+        if out.len() < 2 || !plain || index.analytic.is_some() || degree > MOST_DEGREE {
+            return false;
+        }
+        memory.flights.clear();
+        for number in 0..out.len() {
+            match self.launch(index, asked(number), options, number) {
+                Ok(flight) => memory.flights.push(flight),
+                Err(left) => alone.push((number, left)),
+            }
+        }
+        while !memory.flights.is_empty() {
+            memory.landings.clear();
+            advance(index, memory, alone);
+            for k in (0..memory.landings.len()).step_by(WIDTH) {
+                let end = memory.landings.len().min(k + WIDTH);
+                self.settle(index, reach, [k, end], memory, asked, options, alone, out);
+            }
+        }
+        true
+    }
+
+    /// A query at its start; or where it begins alone, when that is not inside of a piece.
+    fn launch(
+        &self,
+        index: &SurfaceIndex,
+        (query, hint): (Vector, Option<[f64; 2]>),
+        options: &QueryOptions,
+        number: usize,
+    ) -> Result<Flight<[f64; 2]>, Option<Left<[f64; 2]>>> {
+        if is_bad(query) {
+            return Err(None);
+        }
+        let search = self.search(index, query, options, Self::floor(index, query));
+        let hint = hint.filter(|at| at.iter().all(|x| x.is_finite()));
+        let place = hint.map(|at| search.place_of(at)).or_else(|| search.near());
+        let (piece, at) = place.ok_or(None)?;
+        let is_hinted = hint.is_some();
+        if !at.iter().all(|&x| is_inside(x)) {
+            let approach = Approach::new(at);
+            return Err(Some(Left { piece, approach, is_hinted }));
+        }
+        let patch = &index.patches[piece];
+        let q = sub(search.query, patch.center);
+        let sizes = [norm(q), norm(search.query)];
+        let position =
+            position_error(search.steps, index.rational, patch.radius, sizes[0], sizes[1]);
+        Ok(Flight {
+            number,
+            piece,
+            at,
+            query: q,
+            position,
+            worth: None,
+            step: None,
+            taken: 0,
+            is_foot: false,
+            is_hinted,
+        })
+    }
+
+    /// Settles landings `first..end` and makes their records; those whose foot is to be looked at fly on.
+    #[allow(clippy::too_many_arguments)]
+    fn settle(
+        &self,
+        index: &SurfaceIndex,
+        reach: &Reach,
+        [first, end]: [usize; 2],
+        memory: &mut SurfaceMemory,
+        asked: Asked,
+        options: &QueryOptions,
+        alone: &mut Vec<(usize, Option<Left<[f64; 2]>>)>,
+        out: &mut [FootPoint],
+    ) {
+        let landings = &memory.landings[first..end];
+        let landed = &mut memory.landed;
+        landed.jets = [0, 1, 2].map(|k| rows(landings, |landing| landing.jet[k]));
+        landed.w = row(landings, |landing| landing.w);
+        landed.position = row(landings, |landing| landing.flight.position);
+        for (q, landing) in landings.iter().enumerate() {
+            let bend = reach.bend(landing.flight.piece, landing.seen);
+            (landed.bends[0][q], landed.bends[1][q]) = (bend[0], bend[1]);
+        }
+        let bounds = settled_together(reach, landed, index.degree, index.grid.level);
+        let mut at = [[0.0; WIDTH]; 2];
+        for q in 0..WIDTH {
+            let Landing { flight, .. } = landings[q.min(landings.len() - 1)];
+            let patch = &index.patches[flight.piece];
+            (at[0][q], at[1][q]) = (patch.u.global(flight.at[0]), patch.v.global(flight.at[1]));
+        }
+        let points = self.surface().evaluate_together(&at, index.grid.level);
+        for (q, (landing, bound)) in landings.iter().zip(bounds).enumerate() {
+            let flight = landing.flight;
+            let (query, _) = asked(flight.number);
+            let [gap, allowed] = self.gaps(index, query, options);
+            let Some([bound, _]) = bound.filter(|[bound, d]| *bound >= d - gap) else {
+                if landing.seen == flight.at {
+                    alone.push(flight.left(true));
+                } else {
+                    memory.flights.push(Flight { is_foot: true, worth: None, ..flight });
+                }
+                continue;
+            };
+            let (u, v) = (at[0][q], at[1][q]);
+            let patch = &index.patches[flight.piece];
+            let mut foot = if patch.u.holds(u) && patch.v.holds(v) {
+                let point = points.map(|row| row[q]);
+                FootPoint { u, v, point, distance: distance(query, point), ..NOWHERE }
+            } else {
+                self.foot_at(index, query, [u, v], self.surface().domain())
+            };
+            bounded(&mut foot, bound.max(0.0), &index.frame, allowed);
+            if foot.flags & flag::NOT_PROVEN != 0 {
+                alone.push((flight.number, None));
+                continue;
+            }
+            foot.iterations = flight.taken;
+            foot.flags |= if flight.is_hinted { flag::HINT_USED } else { 0 };
+            out[flight.number] = foot;
+        }
+    }
+
+    /// The gap that is left to a search, in the index's lengths, and the one that is allowed.
+    fn gaps(&self, index: &SurfaceIndex, query: Vector, options: &QueryOptions) -> [f64; 2] {
+        let floor = Self::floor(index, query);
+        let gap = options.accuracy(&index.frame).max(floor);
+        let allowed = gap.max(floor + rounding_floor(&index.frame, query, 0.0));
+        [0.5 * gap * index.frame.scale, allowed]
+    }
+}
+
+/// One step of every query on its way.
+fn advance(
+    index: &SurfaceIndex,
+    memory: &mut SurfaceMemory,
+    alone: &mut Vec<(usize, Option<Left<[f64; 2]>>)>,
+) {
+    let SurfaceMemory { flights, landings, jets, steps, .. } = memory;
+    let level = index.grid.level;
+    let mut kept = 0;
+    for first in (0..flights.len()).step_by(WIDTH) {
+        let count = (flights.len() - first).min(WIDTH);
+        let chunk = &flights[first..first + count];
+        let mut nets = [&[][..]; WIDTH];
+        for (net, flight) in nets.iter_mut().zip(chunk) {
+            *net = index.net(flight.piece).lanes;
+        }
+        let at = [0, 1].map(|k| row(chunk, |flight| flight.at[k]));
+        jets.look(index.degree, &nets[..count], &at, level);
+        steps.take(jets, &rows(chunk, |flight| flight.query), index.rational, level);
+        for q in 0..count {
+            let mut flight = flights[first + q];
+            let seen = flight.at;
+            flight.taken += 1;
+            if flight.worth.is_some_and(|before| !steps.is_better(q, before)) {
+                alone.push((flight.number, None));
+                continue;
+            }
+            let fate = if flight.is_foot {
+                Fate::Landed
+            } else {
+                flight.follow(steps.course(q, seen, flight.step), steps.worth(q))
+            };
+            match fate {
+                Fate::Alone => alone.push(flight.left(false)),
+                Fate::Flies => {
+                    flights[kept] = flight;
+                    kept += 1;
+                }
+                Fate::Landed => {
+                    let jet = steps.jets.each_ref().map(|jet| jet.map(|row| row[q]));
+                    landings.push(Landing { flight, seen, jet, w: steps.w[q] });
+                }
+            }
+        }
+    }
+    flights.truncate(kept);
+}
