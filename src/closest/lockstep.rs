@@ -20,6 +20,10 @@ use super::settle::Landed;
 /// Jets after which a query goes on alone.
 pub const MOST_TAKEN: u32 = 12;
 
+/// How far from the middle of a shape, in lengths of its index, queries begin alone: so far out no foot settles its query (K of
+/// [`crate::index::Reach`] has a least value).
+pub const FAR: f64 = 6.0;
+
 /// A record of a place inside of a piece, before it says where.
 pub const NOWHERE: FootPoint = FootPoint {
     u: 0.0,

@@ -4,13 +4,14 @@
 //! At a collapsed side the derivative along it vanishes for every shape: the collapsed point is looked at once,
 //! and off that side the sign of the derivative of the distance itself is used (see [`Walk::turning`]).
 
+mod basin;
 mod sides;
 mod tips;
 mod valley;
 
 use super::certificate::{
-    LEAST_C, foot_plane_separates, free_slope, least_height, nearness, plane_separates,
-    slope_error, squared_error, tilted_height, underflows, value_at,
+    LEAST_C, foot_plane_separates, least_height, nearness, plane_separates, squared_error,
+    tilted_height, underflows,
 };
 use super::line::LineMemory;
 use super::net::CutFree;
@@ -392,7 +393,7 @@ impl Walk<'_, '_, '_> {
 
     fn iterate(&mut self, range: [f64; 4], start: [f64; 2]) -> ([f64; 2], Jet2) {
         let surface = (self.sheet.net, self.sheet.query);
-        let (piece, before) = (self.sheet.piece, self.proof.best);
+        let piece = self.sheet.piece;
         let mut found = match &mut self.proof.trace {
             None => foot_on_surface(&surface, start, range, self.sheet.method, None),
             Some(watch) => {
@@ -407,12 +408,22 @@ impl Walk<'_, '_, '_> {
             found = foot_on_surface(&surface, found.0, range, Method::Auto, None);
             found.2 += taken;
         }
-        let (at, jet, taken) = found;
+        self.note(range, found, true)
+    }
+
+    /// Takes what an iteration in a range has found; `ended`: whether of itself.
+    fn note(
+        &mut self,
+        range: [f64; 4],
+        (at, jet, taken): ([f64; 2], Jet2, u32),
+        ended: bool,
+    ) -> ([f64; 2], Jet2) {
+        let (piece, before) = (self.sheet.piece, self.proof.best);
         self.proof.evaluations += taken;
         self.proof.offer(Site { piece, at }, jet.d, || jet.flat_direction());
         self.proof.rival(Site { piece, at }, jet.d);
         let inner = |k: usize| range[k] != self.sheet.range[k] && at[k / 2] == range[k];
-        if (0..4).any(inner) || taken >= LONG {
+        if !ended || (0..4).any(inner) || taken >= LONG {
             self.proof.cut_off(Site { piece, at });
         }
         self.proof.keep(Site { piece, at }, &jet);
@@ -454,7 +465,7 @@ impl Walk<'_, '_, '_> {
                 return true;
             }
         }
-        let (found, jet) = self.iterate([area.s[0], area.s[1], area.t[0], area.t[1]], start);
+        let (found, jet) = self.descend([area.s[0], area.s[1], area.t[0], area.t[1]], start);
         if tying {
             return true;
         }
@@ -485,25 +496,6 @@ impl Walk<'_, '_, '_> {
         } else {
             slopes.convexity(self.degree, allowance)
         }
-    }
-
-    /// `h >= h(u) - g.M^-1.g / 2` on the area, with `M = [[a, -b], [-b, c]]` the worst Hessian for the slope's signs.
-    fn first_order(&self, area: &Area, at: [f64; 2], jet: &Jet2, [a, b, c]: [f64; 3]) -> bool {
-        let (d, w, position) = (norm(jet.d), jet.w[0], self.sheet.position);
-        let value = value_at(d, w, position, self.proof);
-        let excess = dot(jet.d, jet.d) - self.proof.target_squared;
-        let gradient = jet.gradient();
-        let degrees = [self.sheet.net.degree.s, self.sheet.net.degree.t];
-        let slope = |k: usize, box_: [f64; 2], speed: f64| {
-            let width = box_[1] - box_[0];
-            let g = 2.0 * w * (jet.w[k + 1] * excess + w * gradient[k]) * width;
-            let slack = slope_error(d, speed, w, position, degrees[k]) * width;
-            free_slope(g, slack, at[k] <= box_[0], at[k] >= box_[1])
-        };
-        let x = slope(0, area.s, norm(jet.s));
-        let y = slope(1, area.t, norm(jet.t));
-        let loss = (c * x * x + 2.0 * b * x * y + a * y * y) / (a * c - b * b);
-        value > 0.0 && loss <= 2.0 * value * (1.0 - 1e-10)
     }
 
     /// Whether a plane that fits the net in the scratch memory separates it from the query.

@@ -44,6 +44,7 @@ fn array<S: Simd>(grid: &Grid, direction: usize, low: &mut [f64], high: &mut [f6
         6 => split::<S, 7>(grid, direction, low, high),
         8 => split::<S, 9>(grid, direction, low, high),
         1..16 => split::<S, 16>(grid, direction, low, high),
+        16..32 => split::<S, 32>(grid, direction, low, high),
         _ => split::<S, MOST>(grid, direction, low, high),
     }
 }

@@ -1,7 +1,9 @@
 //! Many queries on a curve at once.
 
 use crate::bounds::{Vector, norm, sub};
-use crate::closest::lockstep::{Begin, CurveMemory, Fate, Flight, Landing, Left, NOWHERE, rows};
+use crate::closest::lockstep::{
+    Begin, CurveMemory, FAR, Fate, Flight, Landing, Left, NOWHERE, rows,
+};
 use crate::closest::proof::Site;
 use crate::closest::settle::settled_on_curve;
 use crate::closest::{
@@ -116,7 +118,7 @@ impl IndexedCurve {
         let place = hint.map(|at| search.place_of(at)).or_else(|| search.near());
         let (piece, at) = place.ok_or(None)?;
         let is_hinted = hint.is_some();
-        if !is_inside(at) {
+        if !is_inside(at) || norm(search.query) > FAR {
             let approach = Approach::new(at);
             return Err(Some(Left { piece, approach, is_hinted }));
         }

@@ -1,7 +1,9 @@
 //! Many queries on a surface at once.
 
 use crate::bounds::{Vector, norm, sub};
-use crate::closest::lockstep::{Begin, Fate, Flight, Landing, Left, NOWHERE, SurfaceMemory, rows};
+use crate::closest::lockstep::{
+    Begin, FAR, Fate, Flight, Landing, Left, NOWHERE, SurfaceMemory, rows,
+};
 use crate::closest::settle::settled_together;
 use crate::closest::{
     FootPoint, QueryOptions, Scope, Workspace, bounded, distance, flag, is_bad, mark_inversion,
@@ -115,7 +117,7 @@ impl IndexedSurface {
         let place = hint.map(|at| search.place_of(at)).or_else(|| search.near());
         let (piece, at) = place.ok_or(None)?;
         let is_hinted = hint.is_some();
-        if !at.iter().all(|&x| is_inside(x)) {
+        if !at.iter().all(|&x| is_inside(x)) || norm(search.query) > FAR {
             let approach = Approach::new(at);
             return Err(Some(Left { piece, approach, is_hinted }));
         }
