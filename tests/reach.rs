@@ -179,7 +179,8 @@ fn look_along(case: &Case, shape: &IndexedCurve, random: &mut Random) -> [usize;
             // Across towards the place: nothing asks for more.
             let across = scaled(rest, 1.0 / norm(rest));
             if norm(rest) > rounding {
-                let bound = reach.asked(k, at, tangent, across, 0.0);
+                let bound = reach.across(k, at).asked(tangent, across, 0.0);
+                let bound = if bound.is_nan() { f64::INFINITY } else { bound };
                 check(name, across, [point, there], bound, [rounding, reach.kink]);
                 finite += usize::from(m == 0 && bound < f64::INFINITY);
             }

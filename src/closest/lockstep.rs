@@ -15,7 +15,7 @@ use crate::refine::{Approach, Course, CurveSteps, SurfaceSteps, Worth};
 use crate::simd::{Row, row};
 
 use super::FootPoint;
-use super::settle::Landed;
+use super::settle::{Landed, LandedOnCurve};
 
 /// Jets after which a query goes on alone.
 pub const MOST_TAKEN: u32 = 12;
@@ -134,6 +134,7 @@ pub struct CurveMemory {
     pub alone: Vec<(usize, Option<Left<f64>>)>,
     pub jets: SegmentJets,
     pub steps: CurveSteps,
+    pub landed: LandedOnCurve,
 }
 
 /// What has become of a flight.

@@ -3,8 +3,8 @@
 use super::certificate::slope_error;
 use super::proof::Site;
 use crate::bezier::Bidegree;
-use crate::bounds::{HALF_ULP, add, cross, dot, norm, scaled, sub};
-use crate::index::{CurveReach, Reach};
+use crate::bounds::{HALF_ULP, cross, dot, norm, scaled, sub};
+use crate::index::{Across, CurveReach, Reach};
 use crate::jet::{Jet1, Jet2};
 use crate::simd::{Kernel, Lanes, Level, Row, Simd, WIDTH};
 
@@ -154,7 +154,8 @@ fn room<V: Lanes<N>, const N: usize>(asked: V) -> V {
     V::splat(1.0) - V::splat(2.0) * asked * V::splat(1.0 + 1e-12)
 }
 
-/// The bound from d, `|a| K + b K_o`, `|e|` and how far the point may be off; then the room, and all of `|e|`.
+/// The bound from d, `|a| K + b K_o`, `|e|` and how far the point may be off; then the room, and all of `|e|`. A kink is counted
+/// twice.
 #[inline(always)]
 fn closing<V: Lanes<N>, const N: usize>(
     [d, asked, lost, position]: [V; 4],
@@ -251,29 +252,122 @@ fn bound_on_curve(
     position: f64,
     degree: usize,
 ) -> Option<f64> {
-    let (d, speed, w) = (norm(jet.d), norm(jet.s), jet.w[0]);
-    let slack = slope_error(d, speed, w, position, degree) / (w * w * speed);
-    let tangent = scaled(jet.s, 1.0 / speed);
-    let along = -dot(jet.d, tangent);
-    let across = scaled(add(jet.d, scaled(tangent, along)), -1.0);
-    let off = position + 1e-9 * d + 4.0 * slack;
-    let mut asked = reach.asked(k, at[0], tangent, across, off);
-    let mut lost = along.abs() + slack;
+    let aim = Aim::new([jet.d, jet.s], jet.w[0], position, degree);
+    let mut asked = reach.across(k, at[0]).asked(aim.tangent, aim.across, aim.off);
+    let mut lost = aim.lost();
     if let Some((side, bend)) = reach.end(k, at[0]) {
-        let out = if side == 0 { -along } else { along };
+        let out = if side == 0 { -aim.along } else { aim.along };
         if out >= 0.0 {
-            asked += (out + off) * bend;
+            asked += (out + aim.off) * bend;
             // An outward part that may be none may also be an inward one.
-            lost = slack + if out < off { 2.0 * off } else { 0.0 };
+            lost = aim.slack + if out < aim.off { 2.0 * aim.off } else { 0.0 };
         }
     }
-    lost += 1.5 * reach.kink * d + reach.gap;
-    let room = 1.0 - 2.0 * asked * (1.0 + 1e-12);
-    if room.is_nan() || room < LEAST_ROOM {
-        return None;
+    closed(closing([aim.d, asked, lost, position], [KINKS * reach.kink, reach.gap]))
+}
+
+/// How often a kink of a curve counts, of twice.
+const KINKS: f64 = 0.75;
+
+/// What the jet of a place of a curve, or lane by lane of many, says about the query.
+struct Aim<V> {
+    /// Distance.
+    d: V,
+    /// Unit vector.
+    tangent: [V; 3],
+    /// The rounding of what is along it.
+    slack: V,
+    /// Of the query along the tangent.
+    along: V,
+    /// Of the query across, and how far that may be off.
+    across: [V; 3],
+    off: V,
+}
+
+impl<V> Aim<V> {
+    #[inline(always)]
+    fn new<const N: usize>([d, s]: [[V; 3]; 2], w: V, position: V, degree: usize) -> Self
+    where
+        V: Lanes<N>,
+    {
+        let (distance, speed, zero) = (norm(d), norm(s), V::splat(0.0));
+        let slack = slope_error(distance, speed, w, position, degree) / (w * w * speed);
+        let inverse = V::splat(1.0) / speed;
+        let tangent = [s[0] * inverse, s[1] * inverse, s[2] * inverse];
+        let along = zero - dot(d, tangent);
+        // The jet looks from the query to the foot.
+        let across = [
+            zero - (d[0] + tangent[0] * along),
+            zero - (d[1] + tangent[1] * along),
+            zero - (d[2] + tangent[2] * along),
+        ];
+        let off = position + V::splat(1e-9) * distance + V::splat(4.0) * slack;
+        Self { d: distance, tangent, slack, along, across, off }
     }
-    let square = (d - position).max(0.0) * (1.0 - 8.0 * HALF_ULP);
-    let less = lost * lost / room + 4.0 * reach.gap * d;
-    let bound = (square * square - less).max(0.0).sqrt() * (1.0 - 4.0 * HALF_ULP);
-    lost.is_finite().then_some(bound)
+
+    /// `|e|`, for a foot inside.
+    #[inline(always)]
+    fn lost<const N: usize>(&self) -> V
+    where
+        V: Lanes<N>,
+    {
+        self.along.abs() + self.slack
+    }
+}
+
+/// Places inside of segments whose jets are to settle their queries: lanes of [`settled_on_curve`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LandedOnCurve {
+    /// d, s.
+    pub jets: [[Row; 3]; 2],
+    /// The weight.
+    pub w: Row,
+    /// How far the point may be off.
+    pub position: Row,
+    /// What the cells say.
+    pub across: Across<Row>,
+}
+
+/// As [`settled_on_curve`] for each lane: the bounds, and those distances. The places are inside of their segments.
+pub fn settled_on_curve_together(
+    reach: &CurveReach,
+    landed: &LandedOnCurve,
+    degree: usize,
+    level: Level,
+) -> [Option<[f64; 2]>; WIDTH] {
+    let settle = SettleOnCurve { landed, degree, kink: KINKS * reach.kink, gap: reach.gap };
+    let [bound, room, lost, d] = level.run(settle);
+    std::array::from_fn(|q| closed([bound[q], room[q], lost[q]]).map(|bound| [bound, d[q]]))
+}
+
+struct SettleOnCurve<'a> {
+    landed: &'a LandedOnCurve,
+    degree: usize,
+    kink: f64,
+    gap: f64,
+}
+
+impl Kernel for SettleOnCurve<'_> {
+    type Out = [Row; 4];
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) -> [Row; 4] {
+        let LandedOnCurve { jets, w, position, across } = self.landed;
+        let (mut vectors, mut axis) = ([[S::F8::splat(0.0); 3]; 2], [S::F8::splat(0.0); 3]);
+        for c in 0..3 {
+            vectors[0][c] = S::F8::load(&jets[0][c]);
+            vectors[1][c] = S::F8::load(&jets[1][c]);
+            axis[c] = S::F8::load(&across.axis[c]);
+        }
+        let mut bends = [S::F8::splat(0.0); 4];
+        for k in 0..4 {
+            bends[k] = S::F8::load(&across.bends[k]);
+        }
+        let position = S::F8::load(position);
+        let aim = Aim::new(vectors, S::F8::load(w), position, self.degree);
+        let asked = Across { axis, bends }.asked(aim.tangent, aim.across, aim.off);
+        let [bound, room, lost] =
+            closing([aim.d, asked, aim.lost(), position], [self.kink, self.gap]);
+        [bound.array(), room.array(), lost.array(), aim.d.array()]
+    }
 }

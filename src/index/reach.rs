@@ -34,7 +34,7 @@ use crate::bounds::Vector;
 use crate::error::Error;
 use crate::simd::Level;
 pub use cell::{Cell, push_cells};
-pub use curve::{Chain, CurveReach};
+pub use curve::{Across, Chain, CurveReach};
 use field::{Field, STRAIGHT, WIDEST};
 use joints::Joints;
 pub use joints::Net;

@@ -4,14 +4,12 @@ use crate::bounds::{Vector, norm, sub};
 use crate::closest::lockstep::{
     Begin, CurveMemory, FAR, Fate, Flight, Landing, Left, NOWHERE, rows,
 };
-use crate::closest::proof::Site;
-use crate::closest::settle::settled_on_curve;
+use crate::closest::settle::settled_on_curve_together;
 use crate::closest::{
     FootPoint, QueryOptions, Scope, Workspace, bounded, distance, flag, is_bad, mark_inversion,
     rounding_floor,
 };
-use crate::index::{CurveIndex, CurveReach, IndexedCurve, position_error};
-use crate::jet::Jet1;
+use crate::index::{Across, CurveIndex, CurveReach, IndexedCurve, position_error};
 use crate::refine::{Approach, Method, is_inside};
 use crate::simd::{MOST_DEGREE, WIDTH, row};
 
@@ -160,16 +158,21 @@ impl IndexedCurve {
         };
         let at = row(landings, parameter);
         let points = self.curve().evaluate_together(&at, index.grid.level);
+        let landed = &mut memory.landed;
+        landed.jets = [0, 1].map(|k| rows(landings, |landing| landing.jet[k]));
+        landed.w = row(landings, |landing| landing.w);
+        landed.position = row(landings, |landing| landing.flight.position);
         for (q, landing) in landings.iter().enumerate() {
+            let Across { axis, bends } = reach.across(landing.flight.piece, landing.seen);
+            (0..3).for_each(|c| landed.across.axis[c][q] = axis[c]);
+            (0..4).for_each(|k| landed.across.bends[k][q] = bends[k]);
+        }
+        let bounds = settled_on_curve_together(reach, landed, index.degree(), index.grid.level);
+        for (q, (landing, bound)) in landings.iter().zip(bounds).enumerate() {
             let flight = landing.flight;
             let (query, _) = asked(flight.number);
             let [gap, allowed] = self.gaps(index, query, options);
-            let site = Site { piece: flight.piece, at: [landing.seen, 0.0] };
-            let [d, s] = landing.jet;
-            let jet = Jet1 { d, s, ss: [0.0; 3], w: [landing.w, 0.0] };
-            let bound =
-                settled_on_curve(Some(reach), site, &jet, flight.position, index.degree(), gap);
-            let Some(bound) = bound else {
+            let Some([bound, _]) = bound.filter(|[bound, d]| *bound >= d - gap) else {
                 if landing.seen == flight.at {
                     alone.push(flight.left(true));
                 } else {

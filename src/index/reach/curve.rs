@@ -18,7 +18,7 @@ use crate::error::Error;
 use crate::index::piece::{position_error, position_steps, reserved};
 use crate::index::segment::Segment;
 use crate::jet::BezierSegment;
-use crate::simd::Level;
+use crate::simd::{Lanes, Level};
 
 /// Turn of the tangent in a cell that is aimed at, and the most cells, unless there are more segments.
 const AIM: f64 = 0.1;
@@ -53,6 +53,41 @@ struct Kept {
     across: [f32; 3],
     /// K for P, -P, B, -B.
     bends: [f32; 4],
+}
+
+/// The bounds of a cell or, lane by lane, of many.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Across<V> {
+    /// P.
+    pub axis: [V; 3],
+    /// K for P, -P, B, -B.
+    pub bends: [V; 4],
+}
+
+impl<V> Across<V> {
+    /// An upper bound of K(n) |n| at a place with the unit tangent `tangent`, for a vector n across that may be off by `off`; not
+    /// a number where the place says nothing.
+    #[inline(always)]
+    pub fn asked<const N: usize>(&self, tangent: [V; 3], n: [V; 3], off: V) -> V
+    where
+        V: Lanes<N>,
+    {
+        let [a, b, c] = self.axis;
+        let along = dot(tangent, self.axis);
+        let across = [a - tangent[0] * along, b - tangent[1] * along, c - tangent[2] * along];
+        let inverse = V::splat(1.0) / norm(across);
+        let across = [across[0] * inverse, across[1] * inverse, across[2] * inverse];
+        let [plus, minus, left, right] = self.bends;
+        larger(dot(n, across), [plus, minus], off)
+            + larger(dot(n, cross(tangent, across)), [left, right], off)
+    }
+}
+
+/// What a part of a vector asks for, with K for it and for its opposite.
+#[inline(always)]
+fn larger<V: Lanes<N>, const N: usize>(part: V, [plus, minus]: [V; 2], off: V) -> V {
+    let either = minus.where_less(part, V::splat(0.0) - off, plus.max(minus));
+    (part.abs() + off) * plus.where_less(off, part, either)
 }
 
 /// The bounds of all cells of a curve.
@@ -128,29 +163,12 @@ impl CurveReach {
         Ok(Self { starts, cells, ends, kink, gap, middles })
     }
 
-    /// An upper bound of K(n) |n| at a place of segment `k` with the unit tangent `tangent`, for a vector n across that may be
-    /// off by `off`.
-    pub fn asked(&self, k: usize, at: f64, tangent: Vector, n: Vector, off: f64) -> f64 {
+    /// What the cell of a place of segment `k` knows of vectors across.
+    pub fn across(&self, k: usize, at: f64) -> Across<f64> {
         let [first, next] = [0, 1].map(|n| self.starts[k + n] as usize);
         let cell = first + ((at * (next - first) as f64) as usize).min(next - first - 1);
         let Kept { across, bends } = &self.cells[cell];
-        let across = across.map(f64::from);
-        let across = sub(across, scaled(tangent, dot(tangent, across)));
-        let across = scaled(across, 1.0 / norm(across));
-        let parts = [dot(n, across), dot(n, cross(tangent, across))];
-        let asked = |part: f64, bends: &[f32]| {
-            let [plus, minus] = [0, 1].map(|n| f64::from(bends[n]));
-            let bend = if part > off {
-                plus
-            } else if part < -off {
-                minus
-            } else {
-                plus.max(minus)
-            };
-            (part.abs() + off) * bend
-        };
-        let sum = asked(parts[0], &bends[..2]) + asked(parts[1], &bends[2..]);
-        if sum.is_nan() { f64::INFINITY } else { sum }
+        Across { axis: across.map(f64::from), bends: bends.map(f64::from) }
     }
 
     /// K for the outward tangent, where a place of segment `k` is an end of the curve: which one, and K.
