@@ -47,7 +47,7 @@ use crate::bounds::{HALF_ULP, Vector, norm, sub};
 use crate::index::{Frame, position_error};
 use crate::refine::Method;
 use crate::tree::Queue;
-use proof::Proof;
+use proof::{Certificate, Proof};
 
 pub(crate) use certificate::{free_slope, slope_error, squared_error, subtract_query};
 pub(crate) use differences::{Slopes, convexity};
@@ -236,12 +236,12 @@ fn grained(allowed: f64, grain: f64, frame: &Frame) -> f64 {
 }
 
 /// What every global answer ends with: the bound in the caller's lengths and the flags of the certificate.
-fn certify(foot: &mut FootPoint, proof: &Proof, frame: &Frame, allowed: f64) {
-    foot.iterations = proof.evaluations;
-    if proof.exhausted {
+fn certify(foot: &mut FootPoint, certificate: Certificate, frame: &Frame, allowed: f64) {
+    foot.iterations = certificate.evaluations;
+    if certificate.exhausted {
         foot.flags |= flag::BUDGET;
     }
-    bounded(foot, proof.proven(), frame, allowed);
+    bounded(foot, certificate.proven, frame, allowed);
 }
 
 /// Takes a proven bound, in the index's lengths, into the record.

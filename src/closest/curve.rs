@@ -204,7 +204,7 @@ impl IndexedCurve {
             );
         };
         let mut foot = self.foot_at(index, query, search.parameter(site), search.range);
-        certify(&mut foot, &proof, &index.frame, allowed);
+        certify(&mut foot, proof.certificate(), &index.frame, allowed);
         if foot.flags & flag::NOT_PROVEN != 0 {
             raise(&mut foot, index.analytic.as_deref(), q, index.frame.scale, allowed);
         }
@@ -251,7 +251,8 @@ impl IndexedCurve {
             }
         }
         *foot = best;
-        certify(foot, proof, &index.frame, grained(allowed, grain, &index.frame));
+        let allowed = grained(allowed, grain, &index.frame);
+        certify(foot, proof.certificate(), &index.frame, allowed);
     }
 
     /// The record at a parameter, with the flags of the place.

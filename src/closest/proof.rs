@@ -86,6 +86,17 @@ pub struct Proof<'t> {
     pub trace: Option<Watch<'t>>,
 }
 
+/// What a proof has come to.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Certificate {
+    /// Evaluations of the shape.
+    pub evaluations: u32,
+    /// Whether the budget ran out.
+    pub exhausted: bool,
+    /// The bound, in the index's lengths.
+    pub proven: f64,
+}
+
 /// Called with (step, place, distance) for each step of each local iteration.
 pub type Watch<'t> = &'t mut dyn FnMut(u32, Site, f64);
 
@@ -322,6 +333,12 @@ impl<'t> Proof<'t> {
         self.spent += 1;
         self.exhausted |= self.spent > self.budget;
         !self.exhausted
+    }
+
+    /// What is proven now, in short.
+    pub fn certificate(&self) -> Certificate {
+        let Self { evaluations, exhausted, .. } = *self;
+        Certificate { evaluations, exhausted, proven: self.proven() }
     }
 
     /// The bound proven by a walk that ended.

@@ -6,7 +6,6 @@ mod record;
 mod rescue;
 mod ties;
 
-use super::elementary::raise;
 use super::local::{LOCAL_FLAGS, WholeSurface, surface_start};
 use super::lockstep::{Begin, Left};
 use super::patch::{Far, PatchMemory, Sheet, search_patch};
@@ -14,15 +13,15 @@ use super::proof::{Proof, Site, Watch, note_loose};
 use super::settle::settled;
 use super::within::{Within, nothing_within};
 use super::{
-    FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, far_foot, first_limit,
-    flag, grained, is_bad, is_coarse, mark_inversion, rounding_floor, search_floor, tree_limit,
-    tree_slack, ulp,
+    FootPoint, QueryOptions, Scope, Workspace, default_budget, far_foot, first_limit, flag, is_bad,
+    is_coarse, mark_inversion, rounding_floor, search_floor, tree_limit, tree_slack,
 };
 use crate::bounds::{HALF_ULP, Vector, add, dot, norm, scaled, sub};
 use crate::error::Error;
 use crate::index::{IndexedSurface, Reach, Span, SurfaceIndex, position_error, position_steps};
 use crate::jet::{Jet2, place};
 use crate::refine::{Approach, Landing, Method, Trace, foot_on_surface, land_on_surface};
+use record::{Outcome, Sought};
 
 /// Boxes that one patch may take before the others have had their turn: a difficult patch that does not even
 /// hold the foot must not use up the budget. One query in a thousand gets here.
@@ -162,8 +161,28 @@ impl IndexedSurface {
         within: Option<Within>,
         options: &QueryOptions,
         workspace: &mut Workspace,
-        mut trace: Option<Trace>,
+        trace: Option<Trace>,
     ) -> FootPoint {
+        match self.seek(index, query, begin, within, options, workspace, trace) {
+            Outcome::Record(foot) => foot,
+            Outcome::Place(sought) => {
+                let foot = self.foot_at(index, query, sought.at, self.range(options));
+                self.record(index, query, options, &sought, foot)
+            }
+        }
+    }
+
+    /// As [`Self::global`], but the record of the place is still to be made.
+    fn seek(
+        &self,
+        index: &SurfaceIndex,
+        query: Vector,
+        begin: Begin<[f64; 2]>,
+        within: Option<Within>,
+        options: &QueryOptions,
+        workspace: &mut Workspace,
+        mut trace: Option<Trace>,
+    ) -> Outcome {
         let traced = trace.is_some();
         let floor = Self::floor(index, query);
         let gap = options.accuracy(&index.frame).max(floor);
@@ -171,14 +190,14 @@ impl IndexedSurface {
         let coefficients = index.degree.times(index.degree).count();
         let budget = if options.budget > 0 { options.budget } else { default_budget(coefficients) };
         let mut search = self.search(index, query, options, floor);
-        let q = search.query;
         if within.is_some() {
             // Where only what is nearer than another shape counts, a foot of this one settles nothing.
             search.reach = None;
         }
+        let hinted = if begin.is_hinted() { flag::HINT_USED } else { 0 };
         if !traced && let Some(mut foot) = self.elementary(index, query, &search, (gap, allowed)) {
-            foot.flags |= if begin.is_hinted() { flag::HINT_USED } else { 0 };
-            return foot;
+            foot.flags |= hinted;
+            return Outcome::Record(foot);
         }
         let mut tell = |step: u32, site: Site, d: f64| {
             if let Some(trace) = &mut trace {
@@ -201,68 +220,30 @@ impl IndexedSurface {
         search.polish(&mut proof);
         let Some(site) = proof.site else {
             if within.is_some() {
-                return nothing_within(&proof, &index.frame);
+                return Outcome::Record(nothing_within(&proof, &index.frame));
             }
             let corner = [search.range[0], search.range[2]];
-            return far_foot(
-                self.foot_at(index, query, corner, search.range),
-                &index.frame,
-                allowed,
-            );
+            let foot = self.foot_at(index, query, corner, search.range);
+            return Outcome::Record(far_foot(foot, &index.frame, allowed));
         };
-        let mut foot = self.foot_at(index, query, search.parameters(site), search.range);
-        certify(&mut foot, &proof, &index.frame, allowed);
-        if foot.flags & flag::NOT_PROVEN != 0 {
-            raise(&mut foot, index.analytic.as_deref(), q, index.frame.scale, allowed);
-        }
-        if foot.flags & flag::NOT_PROVEN != 0 {
-            self.settle_grain(index, query, &search, &mut foot, &proof, allowed);
-        }
-        let flat = proof.flat.or_else(|| search.flat_at_border(site));
-        if proof.settled.is_some() {
-            foot.iterations = proof.evaluations;
-        } else if flat.is_some_and(|v| search.is_continuum(site, v, &proof)) {
-            foot.flags |= flag::CONTINUUM | flag::TIE;
-        } else {
-            foot.flags |= search.ties(workspace, &mut proof);
-            foot.iterations = proof.evaluations;
-        }
-        if begin.is_hinted() {
-            foot.flags |= flag::HINT_USED;
-        }
-        foot
-    }
-
-    /// A foot that is not proven because no doubles are nearer to its parameters: takes the best of the neighbours, and
-    /// lets the grain of the parameters count as rounding.
-    fn settle_grain(
-        &self,
-        index: &SurfaceIndex,
-        query: Vector,
-        search: &SurfaceSearch,
-        foot: &mut FootPoint,
-        proof: &Proof,
-        allowed: f64,
-    ) {
-        let mut jet = [[0.0; 3]; 3];
-        self.surface().partials(foot.u, foot.v, 1, &mut jet);
-        let grain = norm(jet[1]) * ulp(foot.u) + norm(jet[2]) * ulp(foot.v);
-        if grain.is_nan() || grain < 0.01 * allowed {
-            return;
-        }
-        let mut best = *foot;
-        let r = search.range;
-        for u in [foot.u.next_down(), foot.u, foot.u.next_up()] {
-            for v in [foot.v.next_down(), foot.v, foot.v.next_up()] {
-                let at = [u.clamp(r[0], r[1]), v.clamp(r[2], r[3])];
-                let near = self.foot_at(index, query, at, r);
-                if near.distance < best.distance {
-                    best = near;
-                }
+        let certificate = proof.certificate();
+        let mut flags = hinted;
+        if proof.settled.is_none() {
+            let flat = proof.flat.or_else(|| search.flat_at_border(site));
+            if flat.is_some_and(|v| search.is_continuum(site, v, &proof)) {
+                flags |= flag::CONTINUUM | flag::TIE;
+            } else {
+                flags |= search.ties(workspace, &mut proof);
             }
         }
-        *foot = best;
-        certify(foot, proof, &index.frame, grained(allowed, grain, &index.frame));
+        let evaluations = proof.evaluations;
+        Outcome::Place(Sought {
+            at: search.parameters(site),
+            certificate,
+            flags,
+            evaluations,
+            allowed,
+        })
     }
 }
 

@@ -1,5 +1,6 @@
 //! Many queries on a surface at once.
 
+use super::record::{Outcome, Sought};
 use crate::bounds::{Vector, norm, sub};
 use crate::closest::lockstep::{
     Begin, FAR, Fate, Flight, Landing, Left, NOWHERE, SurfaceMemory, rows,
@@ -36,16 +37,65 @@ impl IndexedSurface {
                 *foot = self.closest(query, hint, options, workspace, None);
             }
         }
-        for &(number, left) in &alone {
-            let (query, hint) = asked(number);
-            out[number] = match (left, self.index(&mut || false)) {
-                (Some(left), Ok(index)) => {
-                    self.global(index, query, Begin::On(left), None, options, workspace, None)
-                }
-                _ => self.closest(query, hint, options, workspace, None),
-            };
+        if let Ok(index) = self.index(&mut || false) {
+            self.go_alone(index, asked, &alone, options, workspace, out);
         }
         workspace.lockstep.surface.get_or_insert_default().alone = alone;
+    }
+
+    /// Answers those that lanes have left, one by one; the points of their records are made together.
+    fn go_alone(
+        &self,
+        index: &SurfaceIndex,
+        asked: Asked,
+        alone: &[(usize, Option<Left<[f64; 2]>>)],
+        options: &QueryOptions,
+        workspace: &mut Workspace,
+        out: &mut [FootPoint],
+    ) {
+        let mut found = [(0, Sought::default()); WIDTH];
+        let mut count = 0;
+        for (k, &(number, left)) in alone.iter().enumerate() {
+            let (query, hint) = asked(number);
+            if is_bad(query) {
+                out[number] = FootPoint::bad_query();
+            } else {
+                let begin = left.map_or_else(|| Begin::at(hint.filter(is_finite)), Begin::On);
+                match self.seek(index, query, begin, None, options, workspace, None) {
+                    Outcome::Record(foot) => out[number] = foot,
+                    Outcome::Place(sought) => {
+                        found[count] = (number, sought);
+                        count += 1;
+                    }
+                }
+            }
+            if count == WIDTH || k + 1 == alone.len() {
+                self.record_together(index, asked, &found[..count], options, out);
+                count = 0;
+            }
+        }
+    }
+
+    /// The records of up to [`WIDTH`] places that were found.
+    fn record_together(
+        &self,
+        index: &SurfaceIndex,
+        asked: Asked,
+        found: &[(usize, Sought)],
+        options: &QueryOptions,
+        out: &mut [FootPoint],
+    ) {
+        if found.is_empty() {
+            return;
+        }
+        let at = [0, 1].map(|k| row(found, |(_, sought)| sought.at[k]));
+        let points = self.surface().evaluate_together(&at, index.grid.level);
+        for (q, &(number, sought)) in found.iter().enumerate() {
+            let (query, _) = asked(number);
+            let point = points.map(|row| row[q]);
+            let foot = self.foot_with(index, query, sought.at, point, self.range(options));
+            out[number] = self.record(index, query, options, &sought, foot);
+        }
     }
 
     /// As [`Self::invert`] for each, see [`Self::closest_together`].
@@ -113,7 +163,7 @@ impl IndexedSurface {
             return Err(None);
         }
         let search = self.search(index, query, options, Self::floor(index, query));
-        let hint = hint.filter(|at| at.iter().all(|x| x.is_finite()));
+        let hint = hint.filter(is_finite);
         let place = hint.map(|at| search.place_of(at)).or_else(|| search.near());
         let (piece, at) = place.ok_or(None)?;
         let is_hinted = hint.is_some();
@@ -208,6 +258,10 @@ impl IndexedSurface {
         let allowed = gap.max(floor + rounding_floor(&index.frame, query, 0.0));
         [0.5 * gap * index.frame.scale, allowed]
     }
+}
+
+fn is_finite(at: &[f64; 2]) -> bool {
+    at.iter().all(|x| x.is_finite())
 }
 
 /// One step of every query on its way.

@@ -1,12 +1,90 @@
-//! The record at a parameter pair: point, distance, and the flags of the place.
+//! The record at a parameter pair: point, distance, and the flags of the place; what its proof adds.
 
 use crate::bounds::{Vector, cross, dot, norm};
 use crate::closest::curve::LEAST_CREASE;
-use crate::closest::{FootPoint, distance, flag, rounding_floor};
+use crate::closest::elementary::raise;
+use crate::closest::proof::Certificate;
+use crate::closest::{
+    FootPoint, QueryOptions, certify, distance, flag, grained, rounding_floor, ulp,
+};
 use crate::index::{IndexedSurface, SurfaceIndex};
 use crate::knots::Knots;
 
+/// What a search has come to: a record, or a place whose record is still to be made.
+pub enum Outcome {
+    Record(FootPoint),
+    Place(Sought),
+}
+
+/// A place that a search has found.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sought {
+    /// The caller's parameters.
+    pub at: [f64; 2],
+    pub certificate: Certificate,
+    /// Of the search.
+    pub flags: u32,
+    pub evaluations: u32,
+    /// The gap that is allowed.
+    pub allowed: f64,
+}
+
 impl IndexedSurface {
+    /// Completes the record of a place that was found.
+    pub(super) fn record(
+        &self,
+        index: &SurfaceIndex,
+        query: Vector,
+        options: &QueryOptions,
+        sought: &Sought,
+        mut foot: FootPoint,
+    ) -> FootPoint {
+        let (frame, allowed) = (&index.frame, sought.allowed);
+        certify(&mut foot, sought.certificate, frame, allowed);
+        if foot.flags & flag::NOT_PROVEN != 0 {
+            let q = frame.enter(query);
+            raise(&mut foot, index.analytic.as_deref(), q, frame.scale, allowed);
+        }
+        if foot.flags & flag::NOT_PROVEN != 0 {
+            self.settle_grain(index, query, self.range(options), &mut foot, sought);
+        }
+        foot.flags |= sought.flags;
+        foot.iterations = sought.evaluations;
+        foot
+    }
+
+    /// A foot that is not proven because no doubles are nearer to its parameters: takes the best of the neighbours, and
+    /// lets the grain of the parameters count as rounding.
+    fn settle_grain(
+        &self,
+        index: &SurfaceIndex,
+        query: Vector,
+        r: [f64; 4],
+        foot: &mut FootPoint,
+        sought: &Sought,
+    ) {
+        let mut jet = [[0.0; 3]; 3];
+        self.surface().partials(foot.u, foot.v, 1, &mut jet);
+        let grain = norm(jet[1]) * ulp(foot.u) + norm(jet[2]) * ulp(foot.v);
+        let allowed = sought.allowed;
+        if grain.is_nan() || grain < 0.01 * allowed {
+            return;
+        }
+        let mut best = *foot;
+        for u in [foot.u.next_down(), foot.u, foot.u.next_up()] {
+            for v in [foot.v.next_down(), foot.v, foot.v.next_up()] {
+                let at = [u.clamp(r[0], r[1]), v.clamp(r[2], r[3])];
+                let near = self.foot_at(index, query, at, r);
+                if near.distance < best.distance {
+                    best = near;
+                }
+            }
+        }
+        *foot = best;
+        let allowed = grained(allowed, grain, &index.frame);
+        certify(foot, sought.certificate, &index.frame, allowed);
+    }
+
     /// The record at a parameter pair, with the flags of the place.
     pub(crate) fn foot_at(
         &self,
@@ -15,9 +93,21 @@ impl IndexedSurface {
         at: [f64; 2],
         range: [f64; 4],
     ) -> FootPoint {
+        let point = self.surface().evaluate(at[0], at[1]);
+        self.foot_with(index, query, at, point, range)
+    }
+
+    /// As [`Self::foot_at`], where the point there is known.
+    pub(super) fn foot_with(
+        &self,
+        index: &SurfaceIndex,
+        query: Vector,
+        mut at: [f64; 2],
+        mut point: Vector,
+        range: [f64; 4],
+    ) -> FootPoint {
         let surface = self.surface();
-        let ([u0, u1, v0, v1], mut at) = (surface.domain(), at);
-        let mut point = surface.evaluate(at[0], at[1]);
+        let [u0, u1, v0, v1] = surface.domain();
         let closed = index.closed;
         let (first, last) = ([u0, v0], [u1, v1]);
         for k in 0..2 {
