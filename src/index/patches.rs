@@ -72,7 +72,7 @@ impl SurfaceIndex {
         let numbers = if is_huge {
             Store::Blocks(Box::new(Blocks::new(plan)?))
         } else {
-            Store::Whole(all.numbers)
+            Store::Parts(all.numbers)
         };
         Ok(Self {
             frame,
@@ -105,7 +105,7 @@ impl SurfaceIndex {
             let (degree, rational) = (self.degree, self.rational);
             let poles = if patches.len() <= HUGE { Some(&poles as _) } else { None };
             let net = Net { patches, columns, degree, rational, poles };
-            self.reach = Some(Reach::new(&cells, &net, raster, poll)?);
+            self.reach = Some(Reach::new(cells, &net, raster, poll)?);
         }
         Ok(())
     }

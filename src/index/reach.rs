@@ -79,18 +79,18 @@ impl Reach {
     /// # Errors
     /// [`Error::OutOfMemory`], [`Error::Cancelled`].
     pub fn new(
-        cells: &[Cell],
+        cells: Vec<Cell>,
         net: &Net,
         raster: Raster,
         poll: &mut dyn FnMut() -> bool,
     ) -> Result<Self, Error> {
         let joints = Joints::new(net)?;
-        let field = Field::new(cells, &raster, &joints)?;
-        let mut bends = reserved(cells.len())?;
-        bends.resize(cells.len(), [f32::INFINITY; 2]);
+        let (field, count) = (Field::new(cells, &raster, &joints)?, raster.count());
+        let mut bends = reserved(count)?;
+        bends.resize(count, [f32::INFINITY; 2]);
         let columns = field.size[1];
         let middles = Middles::new(field.middles())?;
-        let mut tiles = reserved(cells.len().div_ceil(TILE))?;
+        let mut tiles = reserved(count.div_ceil(TILE))?;
         tiles.extend(bends.chunks_mut(TILE).map(|tile| Mutex::new(Some(tile))));
         let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
         let work = |poll: &mut dyn FnMut() -> bool| {

@@ -1,7 +1,7 @@
 //! The numbers of the patches: all at once, or for a huge surface in blocks that a query makes when it first visits one.
 //!
 //! ```text
-//!   up to 131,072 patches     nets, lanes, tensors of all of them
+//!   up to 131,072 patches     nets, lanes, tensors of all of them, 1,024 patches a part
 //!   more                      [made] [    ] [    ] [made] ...      16 patches a block
 //! ```
 //!
@@ -17,6 +17,9 @@ use crate::jet::Lane;
 
 /// Patches from which on blocks are made on demand: all of them would take more than some 300 MB.
 pub const HUGE: usize = 1 << 17;
+
+/// Patches in a part, which one thread makes where all are made at once.
+pub const PART: usize = 1 << 10;
 
 /// Patches in a block.
 const BLOCK: usize = 16;
@@ -37,20 +40,13 @@ impl Numbers {
     pub fn memory(&self) -> usize {
         (self.nets.capacity() + self.tensors.capacity() + 4 * self.lanes.capacity()) * 8
     }
-
-    /// Takes over what follows.
-    pub fn append(&mut self, mut other: Self) {
-        self.nets.append(&mut other.nets);
-        self.lanes.append(&mut other.lanes);
-        self.tensors.append(&mut other.tensors);
-    }
 }
 
 /// Where the numbers of the patches are.
 #[derive(Debug)]
 pub enum Store {
-    /// All of them.
-    Whole(Numbers),
+    /// All of them, part by part.
+    Parts(Vec<Numbers>),
     /// Those that have been visited.
     Blocks(Box<Blocks>),
 }
@@ -60,7 +56,7 @@ impl Store {
     #[inline]
     pub fn of(&self, k: usize) -> (&Numbers, usize) {
         match self {
-            Self::Whole(numbers) => (numbers, k),
+            Self::Parts(parts) => (&parts[k / PART], k % PART),
             Self::Blocks(blocks) => (blocks.block(k / BLOCK), k % BLOCK),
         }
     }
@@ -68,7 +64,10 @@ impl Store {
     /// Bytes held now.
     pub fn memory(&self) -> usize {
         match self {
-            Self::Whole(numbers) => numbers.memory(),
+            Self::Parts(parts) => {
+                let heads = parts.capacity() * size_of::<Numbers>();
+                heads + parts.iter().map(Numbers::memory).sum::<usize>()
+            }
             Self::Blocks(blocks) => blocks.memory(),
         }
     }
@@ -105,9 +104,9 @@ impl Blocks {
     #[cold]
     fn make(&self, at: usize) -> &Numbers {
         let range = at * BLOCK..((at + 1) * BLOCK).min(self.plan.count());
-        let room = range.len();
-        let part = self.plan.part(range, room, Keep::Numbers, &mut || false);
-        let numbers = Box::new(part.expect("memory for 16 patches of the index").numbers);
+        let part = self.plan.part(range, Keep::Numbers, &mut || false);
+        let mut part = part.expect("memory for 16 patches of the index");
+        let numbers = Box::new(part.numbers.swap_remove(0));
         self.made[at].get_or_init(|| numbers)
     }
 

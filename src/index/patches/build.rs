@@ -1,6 +1,6 @@
 //! Building the patches of a surface: extraction, balance of weights, collapsed edges; by all cores when there are many.
 
-use super::blocks::Numbers;
+use super::blocks::{Numbers, PART};
 use crate::bezier::{Bidegree, extraction};
 use crate::bounds::{Aabb, HALF_ULP, Vector, add, extent, norm, sub};
 use crate::error::Error;
@@ -17,10 +17,10 @@ use crate::surface::Surface;
 use std::ops::Range;
 use std::panic::resume_unwind;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// Patches from which on all cores build.
-const MANY: usize = 4096;
+/// Parts from which on all cores build.
+const MANY: usize = 4;
 
 /// Patches between two looks at `poll`.
 const GROUP: usize = 256;
@@ -81,8 +81,8 @@ pub struct Plan {
 pub struct Made {
     /// As of the index.
     pub patches: Vec<Patch>,
-    /// Their numbers, when they are wanted.
-    pub numbers: Numbers,
+    /// Their numbers, when they are wanted: of [`PART`] patches each.
+    pub numbers: Vec<Numbers>,
     /// Their boxes.
     pub boxes: Vec<Aabb>,
     /// Their cells.
@@ -102,7 +102,10 @@ pub enum Keep {
 
 struct Builder<'a> {
     plan: &'a Plan,
-    made: Made,
+    patches: Vec<Patch>,
+    numbers: Numbers,
+    boxes: Vec<Aabb>,
+    cells: Vec<Cell>,
     keep: Keep,
 }
 
@@ -148,54 +151,65 @@ impl Plan {
         self.u.memory() + self.v.memory()
     }
 
-    /// Makes all patches. Errors as of the index.
+    /// Makes all patches, part by part. Errors as of the index.
     pub fn build(&self, keep: Keep, poll: &mut dyn FnMut() -> bool) -> Result<Made, Error> {
         let count = self.count();
-        let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        if count < MANY || cores == 1 {
-            return self.part(0..count, count, keep, poll);
-        }
-        let (size, stop) = (count.div_ceil(cores), AtomicBool::new(false));
-        let range = |k: usize| (k * size).min(count)..((k + 1) * size).min(count);
-        std::thread::scope(|scope| {
-            let others: Vec<_> = (1..cores)
-                .map(|k| {
-                    let mut poll = || stop.load(Ordering::Relaxed);
-                    let (range, task) = (range(k), self);
-                    let work = move || task.part(range.clone(), range.len(), keep, &mut poll);
-                    (k, std::thread::Builder::new().spawn_scoped(scope, work))
-                })
-                .collect();
-            let mut all = self.part(range(0), count, keep, poll);
-            if all.is_err() {
-                stop.store(true, Ordering::Relaxed);
-            }
-            for (k, other) in others {
-                // A thread that could not be started leaves its share to this one.
-                let part = match other {
-                    Ok(thread) => thread.join().unwrap_or_else(|panic| resume_unwind(panic)),
-                    Err(_) => self.part(range(k), range(k).len(), keep, poll),
-                };
-                if let Ok(made) = &mut all {
-                    match part {
-                        Ok(part) => made.append(part),
-                        Err(error) => all = Err(error),
-                    }
+        let parts = count.div_ceil(PART);
+        let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
+        let work = |poll: &mut dyn FnMut() -> bool| {
+            let mut done: Vec<(usize, Result<Made, Error>)> = Vec::new();
+            loop {
+                let k = next.fetch_add(1, Ordering::Relaxed);
+                if k >= parts || stop.load(Ordering::Relaxed) {
+                    return done;
                 }
+                let part = self.part(k * PART..((k + 1) * PART).min(count), keep, poll);
+                if part.is_err() {
+                    stop.store(true, Ordering::Relaxed);
+                }
+                done.push((k, part));
             }
-            all
-        })
+        };
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let mut done = std::thread::scope(|scope| {
+            let start = || {
+                let mut poll = || stop.load(Ordering::Relaxed);
+                std::thread::Builder::new().spawn_scoped(scope, move || work(&mut poll))
+            };
+            // A thread that could not be started leaves its share to the others.
+            let others: Vec<_> =
+                (1..if parts < MANY { 1 } else { cores }).filter_map(|_| start().ok()).collect();
+            let mut done = work(poll);
+            for thread in others {
+                done.extend(thread.join().unwrap_or_else(|panic| resume_unwind(panic)));
+            }
+            done
+        });
+        done.sort_unstable_by_key(|(k, _)| *k);
+        if let [(_, only)] = &mut done[..] {
+            return std::mem::replace(only, Ok(Made::default()));
+        }
+        let cells = if keep == Keep::Numbers { 0 } else { self.raster.count() };
+        let mut all = Made {
+            patches: reserved(count)?,
+            numbers: reserved(parts)?,
+            boxes: reserved(count)?,
+            cells: reserved(cells)?,
+        };
+        for (_, part) in done {
+            all.append(part?);
+        }
+        Ok(all)
     }
 
-    /// The patches of `range`, with room for `room`.
+    /// The patches of `range`.
     pub fn part(
         &self,
         range: Range<usize>,
-        room: usize,
         keep: Keep,
         poll: &mut dyn FnMut() -> bool,
     ) -> Result<Made, Error> {
-        let count = self.degree.count();
+        let (room, count) = (range.len(), self.degree.count());
         let width = count * if self.rational { 4 } else { 3 };
         let tensors = if self.keep_tensors { tensor_len(self.degree, self.rational) } else { 0 };
         // Without the numbers there is room for those of one patch.
@@ -204,10 +218,10 @@ impl Plan {
         let split = |k: usize| self.raster.split([k / self.columns, k % self.columns]);
         let cells = match keep {
             Keep::Numbers => 0,
-            _ if room > range.len() => self.raster.cells_to(self.u.spans.len() - 1),
             _ => range.clone().map(|k| split(k)[0] * split(k)[1]).sum(),
         };
-        let made = Made {
+        let mut builder = Builder {
+            plan: self,
             patches: reserved(room)?,
             numbers: Numbers {
                 nets: reserved(nets * width)?,
@@ -216,15 +230,16 @@ impl Plan {
             },
             boxes: reserved(room)?,
             cells: reserved(cells)?,
+            keep,
         };
-        let mut builder = Builder { plan: self, made, keep };
         for (done, k) in range.enumerate() {
             if done % GROUP == GROUP - 1 && poll() {
                 return Err(Error::Cancelled);
             }
             builder.push_patch(k);
         }
-        Ok(builder.made)
+        let Builder { patches, numbers, boxes, cells, .. } = builder;
+        Ok(Made { patches, numbers: vec![numbers], boxes, cells })
     }
 
     fn local_net(&self, span_u: usize, span_v: usize) -> LocalNet {
@@ -247,7 +262,7 @@ impl Plan {
 impl Made {
     fn append(&mut self, mut other: Self) {
         self.patches.append(&mut other.patches);
-        self.numbers.append(other.numbers);
+        self.numbers.append(&mut other.numbers);
         self.boxes.append(&mut other.boxes);
         self.cells.append(&mut other.cells);
     }
@@ -260,17 +275,10 @@ impl Builder<'_> {
         let (a, b) = (k / plan.columns, k % plan.columns);
         let at_side = [a == 0, a + 1 == u.spans.len(), b == 0, b + 1 == v.spans.len()];
         let net = plan.local_net(u.spans[a].0, v.spans[b].0);
-        let start = self.made.numbers.nets.len();
+        let start = self.numbers.nets.len();
         let components = if plan.rational { 4 } else { 3 };
         for component in &net.components[..components] {
-            extract(
-                component,
-                u.matrix(a),
-                u.size,
-                v.matrix(b),
-                v.size,
-                &mut self.made.numbers.nets,
-            );
+            extract(component, u.matrix(a), u.size, v.matrix(b), v.size, &mut self.numbers.nets);
         }
         let balance = self.balance(start);
         let (border_u, border_v) =
@@ -290,27 +298,20 @@ impl Builder<'_> {
         let margin = position_steps(plan.degree.s + plan.degree.t) * net.radius + 8.0 * HALF_ULP;
         let margin = margin + patch.spread;
         if self.keep != Keep::Numbers {
-            let poles = &self.made.numbers.nets[start..];
+            let poles = &self.numbers.nets[start..];
             let (degree, rational) = (plan.degree, plan.rational);
-            push_cells(
-                poles,
-                degree,
-                rational,
-                &patch,
-                plan.raster.split([a, b]),
-                &mut self.made.cells,
-            );
+            push_cells(poles, degree, rational, &patch, plan.raster.split([a, b]), &mut self.cells);
         }
-        self.made.patches.push(patch);
-        self.made.boxes.push(aabb.grown(margin));
+        self.patches.push(patch);
+        self.boxes.push(aabb.grown(margin));
         if self.keep == Keep::Places {
-            self.made.numbers.nets.truncate(start);
+            self.numbers.nets.truncate(start);
             return;
         }
-        let net = &self.made.numbers.nets[start..];
-        self.made.numbers.lanes.extend(lanes(net, plan.rational));
+        let net = &self.numbers.nets[start..];
+        self.numbers.lanes.extend(lanes(net, plan.rational));
         if plan.keep_tensors {
-            push_tensors(net, plan.degree, plan.rational, &mut self.made.numbers.tensors);
+            push_tensors(net, plan.degree, plan.rational, &mut self.numbers.tensors);
         }
     }
 
@@ -320,7 +321,7 @@ impl Builder<'_> {
         if !self.plan.rational {
             return [1.0; 2];
         }
-        let w = &self.made.numbers.nets[start + 3 * count..];
+        let w = &self.numbers.nets[start + 3 * count..];
         let width = degree.t + 1;
         let ratio = |first: f64, last: f64| last / first;
         let corner = [w[0], w[degree.t], w[degree.s * width], w[count - 1]];
@@ -334,7 +335,7 @@ impl Builder<'_> {
             };
             let largest = (0..count).fold(0.0, |m: f64, k| m.max(w[k] * grown(k)));
             let factor = power_of_two_over(largest);
-            for component in self.made.numbers.nets[start..].chunks_exact_mut(count) {
+            for component in self.numbers.nets[start..].chunks_exact_mut(count) {
                 (0..count).for_each(|k| component[k] *= grown(k) * factor);
             }
         }
@@ -344,7 +345,7 @@ impl Builder<'_> {
     /// Calls `f(i, j, Euclidean pole, weight)` for the net that starts at `start`.
     fn visit_poles(&self, start: usize, mut f: impl FnMut(usize, usize, Vector, f64)) {
         let count = self.plan.degree.count();
-        let net = &self.made.numbers.nets[start..];
+        let net = &self.numbers.nets[start..];
         for k in 0..count {
             let w = if self.plan.rational { net[3 * count + k] } else { 1.0 };
             let at = |c: usize| net[c * count + k] / w;
@@ -368,7 +369,7 @@ impl Builder<'_> {
             patch.spread += move_ + 2.0 * position_steps(last_i + last_j) * patch.radius;
             for (at, weight) in moves {
                 for c in 0..3 {
-                    self.made.numbers.nets[start + c * self.plan.degree.count() + at] =
+                    self.numbers.nets[start + c * self.plan.degree.count() + at] =
                         weight * point[c];
                 }
             }
@@ -451,13 +452,18 @@ mod tests {
     fn parts_joined_are_the_whole() {
         let surface = wavy(66);
         let (plan, count) = (Plan::new(Arc::new(surface)), 66 * 66);
-        assert!(count >= MANY);
-        let whole = plan.part(0..count, count, Keep::All, &mut || false).unwrap();
+        assert!(count >= MANY * PART);
+        let whole = plan.part(0..count, Keep::All, &mut || false).unwrap();
         let built = plan.build(Keep::All, &mut || false).unwrap();
-        let mut joined = plan.part(0..1000, count, Keep::All, &mut || false).unwrap();
-        joined.append(plan.part(1000..count, 0, Keep::All, &mut || false).unwrap());
+        let mut joined = plan.part(0..1000, Keep::All, &mut || false).unwrap();
+        joined.append(plan.part(1000..count, Keep::All, &mut || false).unwrap());
+        let nets =
+            |made: &Made| made.numbers.iter().flat_map(|n| n.nets.clone()).collect::<Vec<_>>();
+        let tensors =
+            |made: &Made| made.numbers.iter().flat_map(|n| n.tensors.clone()).collect::<Vec<_>>();
         for other in [built, joined] {
-            assert_eq!((&whole.numbers, &whole.boxes), (&other.numbers, &other.boxes));
+            assert_eq!((nets(&whole), tensors(&whole)), (nets(&other), tensors(&other)));
+            assert_eq!(whole.boxes, other.boxes);
             let centers = |made: &Made| -> Vec<_> {
                 made.patches.iter().map(|p| (p.center, p.u, p.v, p.border)).collect()
             };
@@ -469,27 +475,23 @@ mod tests {
     fn blocks_hold_the_bits_of_the_whole() {
         let surface = Arc::new(wavy(66));
         let (plan, count) = (Plan::new(surface.clone()), 66 * 66);
-        let whole = plan.build(Keep::All, &mut || false).unwrap();
+        let whole = plan.part(0..count, Keep::All, &mut || false).unwrap();
         let bare = plan.build(Keep::Places, &mut || false).unwrap();
         assert_eq!(whole.boxes, bare.boxes);
-        assert!(bare.numbers.nets.is_empty() && bare.numbers.tensors.is_empty());
+        assert!(bare.numbers.iter().all(|n| n.nets.is_empty() && n.tensors.is_empty()));
+        let numbers = &whole.numbers[0];
         let blocks = Store::Blocks(Box::new(Blocks::new(plan).unwrap()));
         let width = |all: usize| all / count;
-        let (of_nets, of_tensors) =
-            (width(whole.numbers.nets.len()), width(whole.numbers.tensors.len()));
+        let (of_nets, of_tensors) = (width(numbers.nets.len()), width(numbers.tensors.len()));
         let empty = blocks.memory();
         for k in [0, 63, 64, 2000, count - 1] {
             let (block, at) = blocks.of(k);
             let part = |all: &[f64], each: usize, k: usize| all[k * each..(k + 1) * each].to_vec();
-            assert_eq!(
-                part(&block.nets, of_nets, at),
-                part(&whole.numbers.nets, of_nets, k),
-                "{k}"
-            );
+            assert_eq!(part(&block.nets, of_nets, at), part(&numbers.nets, of_nets, k), "{k}");
             let tensors = part(&block.tensors, of_tensors, at);
-            assert_eq!(tensors, part(&whole.numbers.tensors, of_tensors, k), "{k}");
+            assert_eq!(tensors, part(&numbers.tensors, of_tensors, k), "{k}");
         }
-        assert!(blocks.memory() > empty && blocks.memory() < whole.numbers.memory() / 4);
+        assert!(blocks.memory() > empty && blocks.memory() < numbers.memory() / 4);
     }
 
     #[test]

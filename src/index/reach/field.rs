@@ -33,22 +33,9 @@ pub struct Field {
 }
 
 impl Field {
-    pub fn new(cells: &[Cell], raster: &Raster, joints: &Joints) -> Result<Self, Error> {
+    pub fn new(cells: Vec<Cell>, raster: &Raster, joints: &Joints) -> Result<Self, Error> {
         let size = raster.size();
-        let [rows, columns] = raster.starts.each_ref().map(|list| list.len() - 1);
-        let mut ordered: Vec<Cell> = reserved(cells.len())?;
-        for a in 0..rows {
-            let first = raster.starts[0][a] as usize;
-            for i in 0..raster.split([a, 0])[0] {
-                for b in 0..columns {
-                    let [up, across] = raster.split([a, b]);
-                    let start = first * size[1] + up * raster.starts[1][b] as usize;
-                    let stretch = [joints.stretch[0][a], joints.stretch[1][b]];
-                    let list = &cells[start + i * across..start + (i + 1) * across];
-                    ordered.extend(list.iter().map(|cell| cell.stretched(stretch)));
-                }
-            }
-        }
+        let ordered = Self::ordered(cells, raster, joints)?;
         let smooth = [0, 1].map(|k| {
             let (n, mut broken) = (size[k], vec![false; size[k] + 1]);
             for (&line, smooth) in raster.starts[k].iter().zip(&joints.smooth[k]) {
@@ -70,10 +57,43 @@ impl Field {
         Ok(Self { size, cells: ordered, smooth, groups, straight })
     }
 
+    /// The cells of all patches row by row, their parameters stretched.
+    fn ordered(cells: Vec<Cell>, raster: &Raster, joints: &Joints) -> Result<Vec<Cell>, Error> {
+        let size = raster.size();
+        let [rows, columns] = raster.starts.each_ref().map(|list| list.len() - 1);
+        if size == [rows, columns] && joints.stretch.iter().flatten().all(|by| *by == 1.0) {
+            return Ok(cells);
+        }
+        let mut ordered: Vec<Cell> = reserved(cells.len())?;
+        for a in 0..rows {
+            let first = raster.starts[0][a] as usize;
+            for i in 0..raster.split([a, 0])[0] {
+                for b in 0..columns {
+                    let [up, across] = raster.split([a, b]);
+                    let start = first * size[1] + up * raster.starts[1][b] as usize;
+                    let stretch = [joints.stretch[0][a], joints.stretch[1][b]];
+                    let list = &cells[start + i * across..start + (i + 1) * across];
+                    ordered.extend(list.iter().map(|cell| cell.stretched(stretch)));
+                }
+            }
+        }
+        Ok(ordered)
+    }
+
     /// A cell, counted on beyond a seam.
     fn cell(&self, place: [isize; 2]) -> &Cell {
-        let [i, j] = [0, 1].map(|k| place[k].rem_euclid(self.size[k] as isize) as usize);
-        &self.cells[i * self.size[1] + j]
+        // At most one time around; a division takes longer than all else here.
+        let around = |k: usize| {
+            let (at, size) = (place[k], self.size[k] as isize);
+            (if at < 0 {
+                at + size
+            } else if at >= size {
+                at - size
+            } else {
+                at
+            }) as usize
+        };
+        &self.cells[around(0) * self.size[1] + around(1)]
     }
 
     /// Where to begin in each cell.

@@ -33,15 +33,15 @@ impl Raster {
     /// For a surface whose patches lie in the given knot spans of u and v: finer where tangents change.
     pub fn new(surface: &Surface, spans: [&[usize]; 2]) -> Self {
         let mut changes = changes(surface, spans);
+        let closed = [surface.is_closed_u(), surface.is_closed_v()];
         for (k, knots) in [surface.knots_u(), surface.knots_v()].into_iter().enumerate() {
             for (change, &span) in changes[k].iter_mut().zip(spans[k]) {
                 // Beside a line where the surface is not C1 nothing is settled: that strip should be narrow.
                 let ends = [knots.values()[span], knots.values()[span + 1]];
                 let (first, last) = knots.domain();
-                let closed = [surface.is_closed_u(), surface.is_closed_v()][k];
                 let broken = |u: f64| {
                     if u == first || u == last {
-                        closed
+                        closed[k]
                     } else {
                         knots.multiplicity(u) >= knots.degree()
                     }
@@ -77,9 +77,10 @@ impl Raster {
         self.starts.each_ref().map(|list| list[list.len() - 1] as usize)
     }
 
-    /// Cells of the patches of row `a` and of all before.
-    pub fn cells_to(&self, a: usize) -> usize {
-        self.starts[0][a + 1] as usize * self.size()[1]
+    /// Number of cells.
+    pub fn count(&self) -> usize {
+        let [rows, columns] = self.size();
+        rows * columns
     }
 
     /// The row and column of cells of a place.
