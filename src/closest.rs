@@ -16,6 +16,7 @@
 
 mod proof;
 mod settle;
+mod sought;
 
 mod certificate;
 

@@ -2,24 +2,25 @@
 
 mod elementary;
 mod lockstep;
+mod record;
 mod ties;
 
 pub use ties::{neighbour, shortest, wrapped};
 
 use super::certificate::{LEAST_C, squared_error};
-use super::elementary::raise;
 use super::line::{Given, Line, LineMemory, Source, search_line};
 use super::local::{LOCAL_FLAGS, WholeCurve, curve_start};
 use super::lockstep::{Begin, Left};
 use super::proof::{Proof, Site, Watch, note_loose};
 use super::settle::settled_on_curve;
+use super::sought::{Outcome, Sought};
 use super::within::{Within, nothing_within};
 use super::{
-    CONTINUUM_STEPS, FootPoint, QueryOptions, Scope, Workspace, certify, default_budget, distance,
-    far_foot, first_limit, flag, grained, is_bad, is_coarse, mark_inversion, rounding_floor,
-    search_floor, tree_limit, tree_slack, ulp,
+    CONTINUUM_STEPS, FootPoint, QueryOptions, Scope, Workspace, default_budget, far_foot,
+    first_limit, flag, is_bad, is_coarse, mark_inversion, rounding_floor, search_floor, tree_limit,
+    tree_slack,
 };
-use crate::bounds::{Vector, cross, dot, norm, sub};
+use crate::bounds::{Vector, dot, norm, sub};
 use crate::error::Error;
 use crate::index::{
     CurveIndex, CurveReach, IndexedCurve, position_error, position_steps, product_steps,
@@ -154,8 +155,28 @@ impl IndexedCurve {
         within: Option<Within>,
         options: &QueryOptions,
         workspace: &mut Workspace,
-        mut trace: Option<Trace>,
+        trace: Option<Trace>,
     ) -> FootPoint {
+        match self.seek(index, query, begin, within, options, workspace, trace) {
+            Outcome::Record(foot) => foot,
+            Outcome::Place(sought) => {
+                let foot = self.foot_at(index, query, sought.at, self.range(options));
+                self.record(index, query, options, &sought, foot)
+            }
+        }
+    }
+
+    /// As [`Self::global`], but the record of the place is still to be made.
+    fn seek(
+        &self,
+        index: &CurveIndex,
+        query: Vector,
+        begin: Begin<f64>,
+        within: Option<Within>,
+        options: &QueryOptions,
+        workspace: &mut Workspace,
+        mut trace: Option<Trace>,
+    ) -> Outcome<f64> {
         let traced = trace.is_some();
         let floor = Self::floor(index, query);
         let gap = options.accuracy(&index.frame).max(floor);
@@ -166,14 +187,14 @@ impl IndexedCurve {
             default_budget(2 * index.degree() + 1)
         };
         let mut search = self.search(index, query, options, floor);
-        let q = search.query;
         if within.is_some() {
             // Where only what is nearer than another shape counts, a foot of this one settles nothing.
             search.reach = None;
         }
+        let hinted = if begin.is_hinted() { flag::HINT_USED } else { 0 };
         if !traced && let Some(mut foot) = self.elementary(index, query, &search, (gap, allowed)) {
-            foot.flags |= if begin.is_hinted() { flag::HINT_USED } else { 0 };
-            return foot;
+            foot.flags |= hinted;
+            return Outcome::Record(foot);
         }
         let mut tell = |step: u32, site: Site, d: f64| {
             if let Some(trace) = &mut trace {
@@ -195,122 +216,23 @@ impl IndexedCurve {
         search.polish(&mut proof);
         let Some(site) = proof.site else {
             if within.is_some() {
-                return nothing_within(&proof, &index.frame);
+                return Outcome::Record(nothing_within(&proof, &index.frame));
             }
-            return far_foot(
-                self.foot_at(index, query, search.range[0], search.range),
-                &index.frame,
-                allowed,
-            );
+            let foot = self.foot_at(index, query, search.range[0], search.range);
+            return Outcome::Record(far_foot(foot, &index.frame, allowed));
         };
-        let mut foot = self.foot_at(index, query, search.parameter(site), search.range);
-        certify(&mut foot, proof.certificate(), &index.frame, allowed);
-        if foot.flags & flag::NOT_PROVEN != 0 {
-            raise(&mut foot, index.analytic.as_deref(), q, index.frame.scale, allowed);
-        }
-        if foot.flags & flag::NOT_PROVEN != 0 {
-            self.settle_grain(index, query, &search, &mut foot, &proof, allowed);
-        }
-        if proof.settled.is_some() {
-            foot.iterations = proof.evaluations;
-        } else if proof.flat.is_some() && search.is_continuum(site, &proof) {
-            foot.flags |= flag::CONTINUUM | flag::TIE;
-        } else {
-            foot.flags |= search.ties(workspace, &mut proof);
-            foot.iterations = proof.evaluations;
-        }
-        if begin.is_hinted() {
-            foot.flags |= flag::HINT_USED;
-        }
-        foot
-    }
-
-    /// A foot that is not proven because no double is nearer to its parameter: takes the best of the neighbours, and
-    /// lets the grain of the parameter count as rounding.
-    fn settle_grain(
-        &self,
-        index: &CurveIndex,
-        query: Vector,
-        search: &CurveSearch,
-        foot: &mut FootPoint,
-        proof: &Proof,
-        allowed: f64,
-    ) {
-        let mut jet = [[0.0; 3]; 2];
-        self.curve().derivatives(foot.u, 1, &mut jet);
-        let grain = norm(jet[1]) * ulp(foot.u);
-        if grain.is_nan() || grain < 0.01 * allowed {
-            return;
-        }
-        let mut best = *foot;
-        for u in [foot.u.next_down(), foot.u.next_up()] {
-            let near =
-                self.foot_at(index, query, u.clamp(search.range[0], search.range[1]), search.range);
-            if near.distance < best.distance {
-                best = near;
+        let certificate = proof.certificate();
+        let mut flags = hinted;
+        if proof.settled.is_none() {
+            if proof.flat.is_some() && search.is_continuum(site, &proof) {
+                flags |= flag::CONTINUUM | flag::TIE;
+            } else {
+                flags |= search.ties(workspace, &mut proof);
             }
         }
-        *foot = best;
-        let allowed = grained(allowed, grain, &index.frame);
-        certify(foot, proof.certificate(), &index.frame, allowed);
-    }
-
-    /// The record at a parameter, with the flags of the place.
-    pub(crate) fn foot_at(
-        &self,
-        index: &CurveIndex,
-        query: Vector,
-        u: f64,
-        range: [f64; 2],
-    ) -> FootPoint {
-        let (first, last) = self.curve().domain();
-        let mut u = u;
-        let mut point = self.curve().evaluate(u);
-        let mut flags = 0;
-        let closed = index.closed;
-        if closed && u == last && range[0] == first {
-            // The canonical parameter of a seam is the start, when it is as near.
-            let start = self.curve().evaluate(first);
-            let floor = rounding_floor(&index.frame, query, 0.0);
-            if distance(query, start) <= distance(query, point) + floor {
-                (u, point) = (first, start);
-            }
-        }
-        if u == first || u == last {
-            flags |= flag::EDGE | if closed { flag::SEAM } else { 0 };
-        }
-        if self.is_crease(index, u) {
-            flags |= flag::CREASE;
-        }
-        FootPoint {
-            u,
-            v: 0.0,
-            point,
-            distance: distance(query, point),
-            lower_bound: 0.0,
-            flags,
-            iterations: 0,
-        }
-    }
-
-    /// Whether the tangent breaks at `u`: a knot of multiplicity >= degree where the one-sided tangents differ.
-    fn is_crease(&self, index: &CurveIndex, u: f64) -> bool {
-        let curve = self.curve();
-        let (first, last) = curve.domain();
-        let at_seam = u == first || u == last;
-        if at_seam && !index.closed || !at_seam && curve.knots().multiplicity(u) < curve.degree() {
-            return false;
-        }
-        let after = index.segments.iter().position(|s| s.u.ends[0] == u);
-        let (before, after) = match after {
-            Some(k) if k > 0 => (k - 1, k),
-            _ if at_seam => (index.segments.len() - 1, 0),
-            _ => return false,
-        };
-        let (a, b) =
-            (index.net(before).jet(1.0, [0.0; 3]).s, index.net(after).jet(0.0, [0.0; 3]).s);
-        let size = norm(a) * norm(b);
-        size > 0.0 && (norm(cross(a, b)) > LEAST_CREASE * size || dot(a, b) < 0.0)
+        let evaluations = proof.evaluations;
+        let at = search.parameter(site);
+        Outcome::Place(Sought { at, certificate, flags, evaluations, allowed })
     }
 }
 

@@ -11,6 +11,7 @@ use super::lockstep::{Begin, Left};
 use super::patch::{Far, PatchMemory, Sheet, search_patch};
 use super::proof::{Proof, Site, Watch, note_loose};
 use super::settle::settled;
+use super::sought::{Outcome, Sought};
 use super::within::{Within, nothing_within};
 use super::{
     FootPoint, QueryOptions, Scope, Workspace, default_budget, far_foot, first_limit, flag, is_bad,
@@ -21,7 +22,6 @@ use crate::error::Error;
 use crate::index::{IndexedSurface, Reach, Span, SurfaceIndex, position_error, position_steps};
 use crate::jet::{Jet2, place};
 use crate::refine::{Approach, Landing, Method, Trace, foot_on_surface, land_on_surface};
-use record::{Outcome, Sought};
 
 /// Boxes that one patch may take before the others have had their turn: a difficult patch that does not even
 /// hold the foot must not use up the budget. One query in a thousand gets here.
@@ -182,7 +182,7 @@ impl IndexedSurface {
         options: &QueryOptions,
         workspace: &mut Workspace,
         mut trace: Option<Trace>,
-    ) -> Outcome {
+    ) -> Outcome<[f64; 2]> {
         let traced = trace.is_some();
         let floor = Self::floor(index, query);
         let gap = options.accuracy(&index.frame).max(floor);
@@ -295,15 +295,7 @@ impl SurfaceSearch<'_> {
     fn place_of(&self, at: [f64; 2]) -> (usize, [f64; 2]) {
         let at =
             [at[0].clamp(self.range[0], self.range[1]), at[1].clamp(self.range[2], self.range[3])];
-        // The last row that begins at or before it.
-        let (mut row, mut end) = (0, self.index.patches.len() / self.index.columns);
-        while end - row > 1 {
-            let middle = row.midpoint(end);
-            let starts = self.index.patches[middle * self.index.columns].u.ends[0];
-            *(if starts <= at[0] { &mut row } else { &mut end }) = middle;
-        }
-        let column =
-            self.index.patches[..self.index.columns - 1].partition_point(|p| p.v.ends[1] <= at[1]);
+        let [row, column] = [0, 1].map(|k| self.index.strip(k, at[k]));
         let k = row * self.index.columns + column;
         let patch = &self.index.patches[k];
         (k, [patch.u.local(at[0]), patch.v.local(at[1])])

@@ -126,6 +126,19 @@ impl SurfaceIndex {
         }
     }
 
+    /// The row (0) or column (1) of patches that holds a parameter in the domain: the last one that begins at or before it.
+    pub fn strip(&self, k: usize, at: f64) -> usize {
+        let stride = [self.columns, 1][k];
+        let (mut found, mut end) = (0, [self.patches.len() / self.columns, self.columns][k]);
+        while end - found > 1 {
+            let middle = found.midpoint(end);
+            let patch = &self.patches[middle * stride];
+            let start = [patch.u, patch.v][k].ends[0];
+            *(if start <= at { &mut found } else { &mut end }) = middle;
+        }
+        found
+    }
+
     /// Distance from `query` to the nearest corner of patch `k`, in the index's coordinates and but for rounding.
     pub fn corner_distance(&self, k: usize, query: Vector) -> f64 {
         let (lanes, columns) = (self.net(k).lanes, self.degree.t + 1);

@@ -5,6 +5,7 @@ use crate::closest::lockstep::{
     Begin, CurveMemory, FAR, Fate, Flight, Landing, Left, NOWHERE, rows,
 };
 use crate::closest::settle::settled_on_curve_together;
+use crate::closest::sought::{Outcome, Sought};
 use crate::closest::{
     FootPoint, QueryOptions, Scope, Workspace, bounded, distance, flag, is_bad, mark_inversion,
     rounding_floor,
@@ -36,16 +37,66 @@ impl IndexedCurve {
                 *foot = self.closest(query, hint.map(|[u]| u), options, workspace, None);
             }
         }
-        for &(number, left) in &alone {
-            let (query, hint) = asked(number);
-            out[number] = match (left, self.index(&mut || false)) {
-                (Some(left), Ok(index)) => {
-                    self.global(index, query, Begin::On(left), None, options, workspace, None)
-                }
-                _ => self.closest(query, hint.map(|[u]| u), options, workspace, None),
-            };
+        if let Ok(index) = self.index(&mut || false) {
+            self.go_alone(index, asked, &alone, options, workspace, out);
         }
         workspace.lockstep.curve.get_or_insert_default().alone = alone;
+    }
+
+    /// Answers those that lanes have left, one by one; the points of their records are made together.
+    fn go_alone(
+        &self,
+        index: &CurveIndex,
+        asked: Asked,
+        alone: &[(usize, Option<Left<f64>>)],
+        options: &QueryOptions,
+        workspace: &mut Workspace,
+        out: &mut [FootPoint],
+    ) {
+        let mut found = [(0, Sought::default()); WIDTH];
+        let mut count = 0;
+        for (k, &(number, left)) in alone.iter().enumerate() {
+            let (query, hint) = asked(number);
+            if is_bad(query) {
+                out[number] = FootPoint::bad_query();
+            } else {
+                let hint = hint.map(|[u]| u).filter(|u| u.is_finite());
+                let begin = left.map_or_else(|| Begin::at(hint), Begin::On);
+                match self.seek(index, query, begin, None, options, workspace, None) {
+                    Outcome::Record(foot) => out[number] = foot,
+                    Outcome::Place(sought) => {
+                        found[count] = (number, sought);
+                        count += 1;
+                    }
+                }
+            }
+            if count == WIDTH || k + 1 == alone.len() {
+                self.record_together(index, asked, &found[..count], options, out);
+                count = 0;
+            }
+        }
+    }
+
+    /// The records of up to [`WIDTH`] places that were found.
+    fn record_together(
+        &self,
+        index: &CurveIndex,
+        asked: Asked,
+        found: &[(usize, Sought<f64>)],
+        options: &QueryOptions,
+        out: &mut [FootPoint],
+    ) {
+        if found.is_empty() {
+            return;
+        }
+        let at = row(found, |(_, sought)| sought.at);
+        let points = self.curve().evaluate_together(&at, index.grid.level);
+        for (q, &(number, sought)) in found.iter().enumerate() {
+            let (query, _) = asked(number);
+            let point = points.map(|row| row[q]);
+            let foot = self.foot_with(index, query, sought.at, point, self.range(options));
+            out[number] = self.record(index, query, options, &sought, foot);
+        }
     }
 
     /// As [`Self::invert`] for each, see [`Self::closest_together`].

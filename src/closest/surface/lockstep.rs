@@ -1,11 +1,11 @@
 //! Many queries on a surface at once.
 
-use super::record::{Outcome, Sought};
 use crate::bounds::{Vector, norm, sub};
 use crate::closest::lockstep::{
     Begin, FAR, Fate, Flight, Landing, Left, NOWHERE, SurfaceMemory, rows,
 };
 use crate::closest::settle::settled_together;
+use crate::closest::sought::{Outcome, Sought};
 use crate::closest::{
     FootPoint, QueryOptions, Scope, Workspace, bounded, distance, flag, is_bad, mark_inversion,
     rounding_floor,
@@ -81,7 +81,7 @@ impl IndexedSurface {
         &self,
         index: &SurfaceIndex,
         asked: Asked,
-        found: &[(usize, Sought)],
+        found: &[(usize, Sought<[f64; 2]>)],
         options: &QueryOptions,
         out: &mut [FootPoint],
     ) {

@@ -3,31 +3,12 @@
 use crate::bounds::{Vector, cross, dot, norm};
 use crate::closest::curve::LEAST_CREASE;
 use crate::closest::elementary::raise;
-use crate::closest::proof::Certificate;
+use crate::closest::sought::Sought;
 use crate::closest::{
     FootPoint, QueryOptions, certify, distance, flag, grained, rounding_floor, ulp,
 };
 use crate::index::{IndexedSurface, SurfaceIndex};
 use crate::knots::Knots;
-
-/// What a search has come to: a record, or a place whose record is still to be made.
-pub enum Outcome {
-    Record(FootPoint),
-    Place(Sought),
-}
-
-/// A place that a search has found.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Sought {
-    /// The caller's parameters.
-    pub at: [f64; 2],
-    pub certificate: Certificate,
-    /// Of the search.
-    pub flags: u32,
-    pub evaluations: u32,
-    /// The gap that is allowed.
-    pub allowed: f64,
-}
 
 impl IndexedSurface {
     /// Completes the record of a place that was found.
@@ -36,7 +17,7 @@ impl IndexedSurface {
         index: &SurfaceIndex,
         query: Vector,
         options: &QueryOptions,
-        sought: &Sought,
+        sought: &Sought<[f64; 2]>,
         mut foot: FootPoint,
     ) -> FootPoint {
         let (frame, allowed) = (&index.frame, sought.allowed);
@@ -61,7 +42,7 @@ impl IndexedSurface {
         query: Vector,
         r: [f64; 4],
         foot: &mut FootPoint,
-        sought: &Sought,
+        sought: &Sought<[f64; 2]>,
     ) {
         let mut jet = [[0.0; 3]; 3];
         self.surface().partials(foot.u, foot.v, 1, &mut jet);
@@ -178,17 +159,10 @@ impl SurfaceIndex {
         let (rows, columns) = (self.patches.len() / self.columns, self.columns);
         let stride = [columns, 1][k];
         let count = [rows, columns][k];
-        let other_count = [rows, columns][1 - k];
-        let other_stride = [columns, 1][1 - k];
-        let other = (0..other_count)
-            .position(|i| at[1 - k] < span(i * other_stride, 1 - k).ends[1])
-            .unwrap_or(other_count - 1);
-        let base = other * other_stride;
-        let after = (0..count).find(|&i| span(base + i * stride, k).ends[0] == at[k]);
-        let (before, after) = match after {
-            Some(0) | None => (count - 1, 0),
-            Some(i) => (i - 1, i),
-        };
+        let base = self.strip(1 - k, at[1 - k]) * [columns, 1][1 - k];
+        let after = self.strip(k, at[k]);
+        let begins = span(base + after * stride, k).ends[0] == at[k];
+        let (before, after) = if begins && after > 0 { (after - 1, after) } else { (count - 1, 0) };
         let normal = |piece: usize, y: f64| {
             let x = span(piece, 1 - k).local(at[1 - k]);
             let (s, t) = if k == 0 { (y, x) } else { (x, y) };
