@@ -252,7 +252,6 @@ impl Line {
             return Kept { across: [0.0; 3], bends: [f32::INFINITY; 4] };
         };
         let views = [1, 2].map(|k| View {
-            from: &arc.bounds,
             axis: bow.axes[k],
             cone: bow.cone,
             depth: arc.bounds.reach(bow.axes[k]) * MARGIN,
@@ -267,7 +266,7 @@ impl Line {
             let steps = (from + count - first) % count + to - from;
             steps <= behind + ahead || behind + ahead + 1 >= count
         };
-        self.groups.far(&views, covered, &mut bends);
+        self.groups.far(&arc.bounds, &views, covered, &mut bends);
         Kept {
             across: bow.axes[1].map(|x| x as f32),
             bends: bends.map(|x| ((x * MARGIN) as f32).next_up()),
@@ -307,8 +306,9 @@ impl Line {
             greatest = [0, 1, 2, 3].map(|k| greatest[k].max(asked[k]));
             let near = near(greatest, least);
             let floor = bends.iter().fold(f64::INFINITY, |least, x| x.min(least));
-            let [p, b] =
-                [&views[0], &views[1]].map(|view| view.asked(&self.arcs[at].bounds, floor));
+            let other = &self.arcs[at].bounds;
+            let seen = self.arcs[place].bounds.seen(other, floor);
+            let [p, b] = [&views[0], &views[1]].map(|view| view.asked(other, seen));
             let far = [p[0], p[1], b[0], b[1]];
             *bends = [0, 1, 2, 3].map(|k| bends[k].max(near[k].min(far[k])));
         }
@@ -335,12 +335,12 @@ impl Line {
         };
         let done = (0..count).take_while(falls).count();
         let axis = scaled(bow.axes[0], if side == 0 { -1.0 } else { 1.0 });
-        let view = View { from: &arc.bounds, axis, cone: bow.cone, depth: -arc.tips[side] };
+        let view = View { axis, cone: bow.cone, depth: -arc.tips[side] };
         let covered = |_: [usize; 2], [first, last]: [usize; 2]| {
             if side == 0 { last < done } else { first + done >= count }
         };
         let mut bends = [LEAST, f64::INFINITY];
-        self.groups.far(&[view], covered, &mut bends);
+        self.groups.far(&arc.bounds, &[view], covered, &mut bends);
         bends[0]
     }
 }

@@ -110,17 +110,14 @@ impl Field {
         let cell = self.cell(place);
         let Some(shape) = &cell.shape else { return [f64::INFINITY; 2] };
         let block = self.block(place, cell);
-        let view = View {
-            from: &cell.bounds,
-            axis: shape.normal,
-            cone: shape.cone,
-            depth: cell.bounds.half[2],
-        };
+        let from = &cell.bounds;
+        let view = View { axis: shape.normal, cone: shape.cone, depth: from.half[2] };
         let mut bend = [LEAST; 2];
         for i in block[0][0]..=block[0][1] {
             for j in block[1][0]..=block[1][1] {
                 let other = self.cell([i, j]);
-                let far = view.asked(&other.bounds, bend[0].min(bend[1]));
+                let seen = from.seen(&other.bounds, bend[0].min(bend[1]));
+                let far = view.asked(&other.bounds, seen);
                 if far[0] <= bend[0] && far[1] <= bend[1] {
                     continue;
                 }
@@ -129,7 +126,7 @@ impl Field {
             }
         }
         if bend[0] < f64::INFINITY || bend[1] < f64::INFINITY {
-            self.groups.far(&[view], self.covered(block), &mut bend);
+            self.groups.far(from, &[view], self.covered(block), &mut bend);
         }
         bend
     }
@@ -146,13 +143,13 @@ impl Field {
         let turn = shape.off[1 - k] / (along - 0.5 * shape.off[1 - k]);
         let fall = speed - shape.off[k] - turn * (across + shape.off[k]);
         let cone = (turn + shape.cone) * MARGIN;
-        let view = View { from: &cell.bounds, axis, cone, depth: -shape.rims[side] };
+        let (from, view) = (&cell.bounds, View { axis, cone, depth: -shape.rims[side] });
         let block = self.block(place, cell);
         let mut bend = LEAST;
         for i in block[0][0]..=block[0][1] {
             for j in block[1][0]..=block[1][1] {
                 let other = self.cell([i, j]);
-                let far = view.asked(&other.bounds, bend)[0];
+                let far = view.asked(&other.bounds, from.seen(&other.bounds, bend))[0];
                 if far <= bend {
                     continue;
                 }
@@ -166,7 +163,7 @@ impl Field {
         }
         let mut bend = [bend, f64::INFINITY];
         if bend[0] < f64::INFINITY {
-            self.groups.far(&[view], self.covered(block), &mut bend);
+            self.groups.far(from, &[view], self.covered(block), &mut bend);
         }
         bend[0]
     }

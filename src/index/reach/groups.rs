@@ -51,10 +51,11 @@ impl Groups {
         Ok(Self { layers })
     }
 
-    /// Raises the bounds of a cell, two for each of its views, to what all cells ask but those of the groups (first and last
-    /// row, first and last column) that are `covered` already.
+    /// Raises the bounds of the cell in box `from`, two for each of its views, to what all cells ask but those of the groups
+    /// (first and last row, first and last column) that are `covered` already.
     pub fn far(
         &self,
+        from: &Oriented,
         views: &[View],
         covered: impl Fn([usize; 2], [usize; 2]) -> bool,
         bends: &mut [f64],
@@ -74,8 +75,9 @@ impl Groups {
             let other = &self.layers[layer].boxes[i * self.layers[layer].size[1] + j];
             let least = bends.iter().fold(f64::INFINITY, |least, x| x.min(least));
             let mut more = false;
+            let seen = from.seen(other, least);
             for (view, bends) in views.iter().zip(bends.chunks_exact_mut(2)) {
-                for (bend, ask) in bends.iter_mut().zip(view.asked(other, least)) {
+                for (bend, ask) in bends.iter_mut().zip(view.asked(other, seen)) {
                     more |= ask > *bend;
                     if layer == 0 {
                         *bend = bend.max(ask);
@@ -99,9 +101,8 @@ impl Groups {
     }
 }
 
-/// A cell with a direction, seen from what is elsewhere.
-pub struct View<'a> {
-    pub from: &'a Oriented,
+/// A direction of a cell, seen from what is elsewhere.
+pub struct View {
     /// Unit vector, and how far the direction of a place may be from it.
     pub axis: Vector,
     pub cone: f64,
@@ -109,18 +110,35 @@ pub struct View<'a> {
     pub depth: f64,
 }
 
-impl View<'_> {
+/// A box as it is seen from another one.
+#[derive(Clone, Copy)]
+pub enum Seen {
+    /// So far off that it is not looked at any closer: what it asks for in any direction.
+    Off(f64),
+    /// The move from middle to middle, and the distance.
+    At(Vector, f64),
+}
+
+impl Oriented {
+    /// How another box is seen from here; not looked at any closer when it asks for `least` at most.
+    pub fn seen(&self, other: &Self, least: f64) -> Seen {
+        let move_ = sub(other.center, self.center);
+        let apart = (norm(move_) - self.radius - other.radius) / MARGIN;
+        if apart * least >= 1.0 {
+            return Seen::Off(1.0 / apart);
+        }
+        Seen::At(move_, self.distance(other).max(apart))
+    }
+}
+
+impl View {
     /// What is in a box asks of the bounds of a cell, for the axis and the opposite one: the greatest `N.e / |e|^2` for `|e|` at
     /// least the distance d, and normals N within the cone of A: `A.e / d^2 + |N - A| / d`, and 1 / d.
-    ///
-    /// Not looked at any closer when it is at most `least`.
-    pub fn asked(&self, other: &Oriented, least: f64) -> [f64; 2] {
-        let move_ = sub(other.center, self.from.center);
-        let apart = (norm(move_) - self.from.radius - other.radius) / MARGIN;
-        if apart * least >= 1.0 {
-            return [1.0 / apart; 2];
-        }
-        let distance = self.from.distance(other).max(apart);
+    pub fn asked(&self, other: &Oriented, seen: Seen) -> [f64; 2] {
+        let (move_, distance) = match seen {
+            Seen::Off(ask) => return [ask; 2],
+            Seen::At(move_, distance) => (move_, distance),
+        };
         if distance.is_nan() || distance <= 0.0 {
             return [f64::INFINITY; 2];
         }

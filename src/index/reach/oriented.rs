@@ -48,16 +48,22 @@ impl Oriented {
     /// At most the distance to another box.
     pub fn distance(&self, other: &Self) -> f64 {
         let move_ = sub(other.center, self.center);
-        let gaps = |from: &Self, to: &Self| {
+        // The cosines between the axes serve both ways.
+        let turn = self.axes.map(|mine| other.axes.map(|axis| dot(mine, axis).abs()));
+        let gaps = |from: &Self, to: &Self, cosine: &dyn Fn(usize, usize) -> f64| {
             (0..3).fold(0.0, |sum, k| {
-                let reach = from.half[k] + to.reach(from.axes[k]);
+                let reach = (0..3).fold(0.0, |sum, n| sum + to.half[n] * cosine(k, n));
+                let reach = from.half[k] + reach;
                 let gap = (dot(move_, from.axes[k]).abs() - reach * MARGIN).max(0.0);
                 sum + gap * gap
             })
         };
-        gaps(self, other).max(gaps(other, self)).sqrt() / MARGIN
+        let there = gaps(self, other, &|k, n| turn[k][n]);
+        let back = gaps(other, self, &|k, n| turn[n][k]);
+        there.max(back).sqrt() / MARGIN
     }
 }
+
 /// Least and greatest of a list; zeros of none.
 pub fn extent(list: impl Iterator<Item = f64>) -> [f64; 2] {
     list.fold(None, |ends: Option<[f64; 2]>, x| {
