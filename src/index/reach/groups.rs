@@ -90,13 +90,20 @@ impl Groups {
             if layer == 0 || !more {
                 continue;
             }
-            let fine = self.layers[layer - 1].size;
-            for a in 2 * i..(2 * i + 2).min(fine[0]) {
-                for b in 2 * j..(2 * j + 2).min(fine[1]) {
+            // The nearest part comes first: what it asks for makes most of the others no matter.
+            let fine = &self.layers[layer - 1];
+            let first = count;
+            for a in 2 * i..(2 * i + 2).min(fine.size[0]) {
+                for b in 2 * j..(2 * j + 2).min(fine.size[1]) {
                     waiting[count] = (layer - 1, a, b);
                     count += 1;
                 }
             }
+            let apart = |&(_, a, b): &(usize, usize, usize)| {
+                let move_ = sub(fine.boxes[a * fine.size[1] + b].center, from.center);
+                dot(move_, move_)
+            };
+            waiting[first..count].sort_unstable_by(|x, y| apart(y).total_cmp(&apart(x)));
         }
     }
 }
