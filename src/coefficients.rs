@@ -16,12 +16,18 @@
 
 mod halve;
 mod kernels;
+mod lower;
+mod part;
 
 use crate::bezier::{Bidegree, binomial};
 use crate::bounds::Vector;
+use crate::knots::MAX_DEGREE;
 use crate::simd::Level;
 use halve::Halve;
 use kernels::{Beyond, Extremes, Multiply, ProductBeyond, Ratio, Square};
+pub(crate) use lower::NetFalls;
+pub use lower::{Ladder, Rung, Step};
+use part::Part;
 
 /// Lanes of a vector, and room before the first coefficient.
 const LANES: usize = 8;
@@ -89,6 +95,23 @@ impl Differences {
         let c = m * (m - 1.0) * (self.tt - allowance);
         // The determinant must keep enough digits for the first-order bound that divides by it.
         (a > 0.0 && c > 0.0 && a * c * (1.0 - 1e-5) > b * b).then_some([a, b, c])
+    }
+}
+
+/// Most coefficients along one direction.
+const MOST: usize = 2 * MAX_DEGREE + 1;
+
+/// The Bernstein polynomials of a degree at x.
+pub fn bernstein(degree: usize, x: f64, out: &mut [f64]) {
+    let mut power = 1.0;
+    for (k, value) in out[..=degree].iter_mut().enumerate() {
+        *value = binomial(degree, k) * power;
+        power *= x;
+    }
+    power = 1.0;
+    for value in out[..=degree].iter_mut().rev() {
+        *value *= power;
+        power *= 1.0 - x;
     }
 }
 
@@ -192,6 +215,24 @@ impl Grid {
         [along(self.degree.s, place / width, width), along(self.degree.t, place % width, 1)]
     }
 
+    /// The ratio N / C at a place of the box, but for rounding.
+    pub fn ratio_at(&self, slot: &[f64], [s, t]: [f64; 2]) -> f64 {
+        let (mut row, mut column) = ([0.0; MOST], [0.0; MOST]);
+        bernstein(self.degree.t, t, &mut row);
+        bernstein(self.degree.s, s, &mut column);
+        let width = self.width();
+        let value = |array: &[f64]| {
+            let mut sum = 0.0;
+            for (strand, share) in array.chunks_exact(width).zip(&column) {
+                let along: f64 = strand.iter().zip(&row).map(|(x, y)| x * y).sum();
+                sum += share * along;
+            }
+            sum
+        };
+        let n = value(self.n(slot));
+        if self.rational { n / value(self.c(slot)) } else { n }
+    }
+
     /// Fills a slot from tensors A, -2 B (three) and, when rational, C, each [`padded`]: `N = A - 2 p.B + |p|^2 C`.
     pub fn multiply(&self, tensors: &[f64], p: Vector, square: f64, slot: &mut [f64]) {
         self.level.run(Multiply { grid: self, tensors, p, square, slot });
@@ -236,6 +277,11 @@ impl Grid {
     /// least N of both.
     pub fn halve(&self, direction: usize, low: &mut [f64], high: &mut [f64]) -> [f64; 2] {
         self.level.run(Halve { grid: self, direction, low, high })
+    }
+
+    /// The part of a slot before a place of direction 0 (s) or 1 (t), given as a share of the box; or the rest.
+    pub fn cut(&self, direction: usize, place: f64, keeps_rest: bool, slot: &mut [f64]) {
+        self.level.run(Part { grid: self, direction, place, keeps_rest, slot });
     }
 
     /// Coefficients of `|r|^2` and, when rational, `W^2` of a net of lanes `r`, `W`, which is used up.
@@ -365,6 +411,27 @@ mod tests {
                 assert_eq!((grid.c(&low), grid.c(&high)), (&c[..], &c_high[..]));
                 let least_of = |x: &[f64]| x.iter().copied().fold(f64::INFINITY, f64::min);
                 assert_eq!(least, [least_of(&n), least_of(&n_high)]);
+            }
+        }
+    }
+
+    #[test]
+    fn parts_are_those_of_halving() {
+        for grid in grids() {
+            for direction in [0, 1] {
+                let whole = filled(&grid, 11);
+                let (mut low, mut high) = (whole.clone(), vec![0.0; grid.slot()]);
+                grid.halve(direction, &mut low, &mut high);
+                let (mut part, mut rest) = (whole.clone(), whole);
+                grid.cut(direction, 0.5, false, &mut part);
+                grid.cut(direction, 0.5, true, &mut rest);
+                assert_eq!((grid.n(&part), grid.c(&part)), (grid.n(&low), grid.c(&low)));
+                assert_eq!((grid.n(&rest), grid.c(&rest)), (grid.n(&high), grid.c(&high)));
+                // A quarter of a quarter away from the end is the end of what two halvings leave.
+                grid.cut(direction, 0.25, true, &mut high);
+                let place = if direction == 0 { [0.625 - 0.5, 0.0] } else { [0.0, 0.625 - 0.5] };
+                let value = grid.ratio_at(&rest, place.map(|x| 2.0 * x));
+                assert!((grid.ratio_at(&high, [0.0; 2]) - value).abs() < 1e-9);
             }
         }
     }

@@ -342,6 +342,21 @@ impl Kernel for PatchVector<'_> {
 }
 
 impl BezierPatch<'_> {
+    /// How fast points move at most with s and with t, weights apart.
+    pub fn speed(&self) -> [f64; 2] {
+        let (width, mut most) = (self.degree.t + 1, [0.0_f64; 2]);
+        for (k, pole) in self.lanes.iter().enumerate() {
+            let from = place(*pole);
+            if k >= width {
+                most[0] = most[0].max(pole_distance(&self.lanes[k - width], from));
+            }
+            if k % width > 0 {
+                most[1] = most[1].max(pole_distance(&self.lanes[k - 1], from));
+            }
+        }
+        [most[0] * self.degree.s as f64, most[1] * self.degree.t as f64]
+    }
+
     /// The vector from the query `p` to the point at `(s, t)`: the jet without its derivatives.
     pub fn vector(&self, s: f64, t: f64, p: Vector) -> Vector {
         self.level.run(PatchVector(self, [s, t], p))

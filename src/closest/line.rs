@@ -10,7 +10,7 @@
 use super::certificate::{
     free_slope, nearness, plane_separates, slope_error, squared_error, underflows, value_at,
 };
-use super::net::CutFree;
+use super::net::{Cut, CutFree};
 use super::proof::{Proof, Site};
 use super::settle::settled_on_curve;
 use crate::bezier::Bidegree;
@@ -420,13 +420,14 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
         let segment = &self.line.segment;
         let (p, size) = (segment.degree, segment.degree + 1);
         let net = &mut self.memory.net[..4 * size];
-        let radius = segment.level.run(CutFree {
+        let Cut { radius, .. } = segment.level.run(CutFree {
             poles: segment.lanes,
             degree: Bidegree { s: 0, t: p },
             rational: segment.rational,
             s: [0.0, 1.0],
             t: [interval.low, interval.high],
             query: self.line.query,
+            lower: None,
             lanes: &mut self.memory.lanes[..size],
             net,
         });

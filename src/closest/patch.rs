@@ -5,20 +5,17 @@
 //! and off that side the sign of the derivative of the distance itself is used (see [`Walk::turning`]).
 
 mod basin;
+mod degrees;
 mod sides;
 mod tips;
 mod valley;
 
-use super::certificate::{
-    LEAST_C, foot_plane_separates, least_height, nearness, plane_separates, squared_error,
-    tilted_height, underflows,
-};
+use super::certificate::{LEAST_C, foot_plane_separates, squared_error, underflows};
 use super::line::LineMemory;
-use super::net::CutFree;
 use super::proof::{Proof, Site};
 use crate::bezier::Bidegree;
 use crate::bounds::{HALF_ULP, Vector, dot, norm};
-use crate::coefficients::{Differences, Grid};
+use crate::coefficients::{Differences, Grid, Ladder, Rung};
 use crate::index::{Patch, Reach, product_steps};
 use crate::jet::{BezierPatch, Jet2};
 use crate::knots::MAX_DEGREE;
@@ -33,8 +30,12 @@ const FRESH: u32 = 12;
 /// Boxes after which a patch is hard: there planes, tried at every second halving, close what squares do not.
 const HARD: u64 = 32;
 const TILT_EVERY: u32 = 2;
+/// Areas that may be this many times larger than what counts as one foot are looked at in a walk for ties: speeds are bounds.
+const SMALL: f64 = 4.0;
+/// Halvings of a patch in each direction before lower degrees are thought of.
+const WHOLE: [u32; 2] = [2; 2];
 /// Tilted planes that are tried before one in 16 must have closed its box.
-const TILT_TRIES: u64 = 32;
+const TILT_TRIES: u64 = 8;
 
 /// A patch in the search.
 pub struct Sheet<'a> {
@@ -54,9 +55,9 @@ pub struct Sheet<'a> {
     pub range: [f64; 4],
     /// Whether a foot with a gradient may sit on the four sides of `range`.
     pub border: [bool; 4],
-    /// The coefficient arrays, and those of edges along s and along t.
-    pub grid: &'a Grid,
-    /// See `grid`.
+    /// The coefficient arrays of all degrees.
+    pub ladder: &'a Ladder,
+    /// Those of edges along s and along t.
     pub edge_grids: &'a [Grid; 2],
     /// Local iteration.
     pub method: Method,
@@ -69,7 +70,7 @@ pub struct Sheet<'a> {
 impl Sheet<'_> {
     fn far(&self) -> Far<'_> {
         let (net, tensors, radius) = (self.net, self.tensors, self.patch.radius);
-        let (query, position, grid) = (self.query, self.position, self.grid);
+        let (query, position, grid) = (self.query, self.position, self.ladder.whole());
         Far { net, tensors, radius, query, position, grid }
     }
 }
@@ -124,6 +125,14 @@ struct Area {
     small: bool,
     /// Whether its slot holds nothing yet: its coefficients are formed from the poles when its turn comes.
     unformed: bool,
+    /// The degrees of its coefficients.
+    rung: Rung,
+    /// How much more their error is to differences, since they have lower degrees.
+    growth: f64,
+    /// Halvings in each direction before lower degrees are thought of.
+    patience: [u32; 2],
+    /// Whether lowering has failed: it keeps its degrees.
+    is_stiff: bool,
 }
 
 /// Memory of the search on patches.
@@ -160,23 +169,23 @@ impl PatchMemory {
 /// Searches the patch; see [`search_line`] for what holds on return. False when patience ran out: then nothing holds
 /// but the best foot, and the patch is to be searched again.
 pub fn search_patch(sheet: &Sheet, memory: &mut PatchMemory, proof: &mut Proof) -> bool {
-    memory.reserve(sheet.net.degree, sheet.grid);
+    memory.reserve(sheet.net.degree, sheet.ladder.whole());
     memory.waiting.clear();
-    let (degree, slot, start) = (sheet.grid.degree, sheet.grid.slot(), proof.spent);
-    Walk { sheet, memory, proof, degree, slot, start, tilts: (0, 0) }.run()
+    let (slot, start) = (sheet.ladder.whole().slot(), proof.spent);
+    let speed = if proof.tying { sheet.net.speed() } else { [0.0; 2] };
+    Walk { sheet, memory, proof, slot, start, speed }.run()
 }
 
 struct Walk<'a, 'b, 't> {
     sheet: &'a Sheet<'b>,
     memory: &'a mut PatchMemory,
     proof: &'a mut Proof<'t>,
-    /// Bidegree of the product coefficients.
-    degree: Bidegree,
+    /// Doubles of a slot.
     slot: usize,
     /// Boxes that were spent before this patch.
     start: u64,
-    /// Tilted planes tried, and boxes closed by them.
-    tilts: (u64, u64),
+    /// In a walk for ties: how fast points move at most with each parameter, weights apart.
+    speed: [f64; 2],
 }
 
 enum Verdict {
@@ -189,13 +198,25 @@ enum Verdict {
 impl Walk<'_, '_, '_> {
     /// Whether the patch has taken many boxes, and tilted planes close enough of them.
     fn hard(&self) -> bool {
-        let (tries, hits) = self.tilts;
+        let (tries, hits) = self.proof.tilts;
         self.proof.spent - self.start > HARD && (tries < TILT_TRIES || 16 * hits > tries)
+    }
+
+    /// Whether the poles of an area may tell more than its coefficients: planes do on hard patches; and whether an area holds one
+    /// foot at most, or the best foot alone, when it is small.
+    fn is_worth_a_cut(&self, area: &Area) -> bool {
+        if self.hard() && area.age.is_multiple_of(TILT_EVERY) {
+            return true;
+        }
+        let [s, t] = [area.s, area.t].map(|[a, b]| b - a);
+        let size = self.speed[0] * s + self.speed[1] * t;
+        self.proof.tying && size * size <= SMALL * SMALL * self.proof.apart_squared()
     }
 
     fn run(&mut self) -> bool {
         let [s0, s1, t0, t1] = self.sheet.range;
-        let mut first = Area { s: [s0, s1], t: [t0, t1], ..Area::default() };
+        let mut first = Area { s: [s0, s1], t: [t0, t1], growth: 1.0, ..Area::default() };
+        first.patience = WHOLE;
         self.proof.spread = self.proof.spread.max(self.sheet.patch.spread);
         self.look_at_collapsed_sides();
         if self.sheet.patch.has_collapsed() && self.sheet.far().decides(self.proof)
@@ -241,16 +262,16 @@ impl Walk<'_, '_, '_> {
         let p = self.sheet.query;
         let square = dot(p, p);
         let slot = &mut self.memory.coefficients[..self.slot];
-        self.sheet.grid.multiply(tensors, p, square, slot);
+        self.sheet.ladder.whole().multiply(tensors, p, square, slot);
         let radius = self.sheet.patch.radius + square.sqrt();
-        self.set_error(area, 0, radius, self.sheet.net.degree.count());
+        let (position, terms) = (self.sheet.position, self.sheet.net.degree.count());
+        self.set_error(area, 0, radius, position, terms);
     }
 
-    fn set_error(&self, area: &mut Area, at: usize, radius: f64, terms: usize) {
+    fn set_error(&self, area: &mut Area, at: usize, radius: f64, position: f64, terms: usize) {
         let mu = if self.proof.target.is_finite() { self.proof.target_squared } else { 0.0 };
-        area.error =
-            squared_error(self.sheet.position, radius, product_steps(terms)) + 8.0 * HALF_ULP * mu;
-        if self.sheet.net.rational && underflows(self.c(at)) {
+        area.error = squared_error(position, radius, product_steps(terms)) + 8.0 * HALF_ULP * mu;
+        if self.sheet.net.rational && underflows(self.c(area, at)) {
             area.error = f64::INFINITY;
         }
         area.radius = radius;
@@ -261,19 +282,23 @@ impl Walk<'_, '_, '_> {
         &self.memory.coefficients[at * self.slot..(at + 1) * self.slot]
     }
 
-    fn n(&self, at: usize) -> &[f64] {
-        self.sheet.grid.n(self.slot(at))
+    fn grid(&self, area: &Area) -> &Grid {
+        self.sheet.ladder.grid(area.rung)
     }
 
-    fn c(&self, at: usize) -> &[f64] {
-        self.sheet.grid.c(self.slot(at))
+    fn n(&self, area: &Area, at: usize) -> &[f64] {
+        self.grid(area).n(self.slot(at))
+    }
+
+    fn c(&self, area: &Area, at: usize) -> &[f64] {
+        self.grid(area).c(self.slot(at))
     }
 
     /// Whether nothing in the area is nearer than the target (in a walk for ties: than their reach).
     fn is_beyond(&mut self, area: &Area, at: usize) -> bool {
         let (level, ties) = (self.proof.level_squared(), self.proof.tie_squared());
         let mu = [level + area.error, ties + area.error];
-        let [beyond, beyond_ties] = self.sheet.grid.all_beyond(self.slot(at), mu);
+        let [beyond, beyond_ties] = self.grid(area).all_beyond(self.slot(at), mu);
         if beyond && !beyond_ties && !self.proof.tying {
             self.proof.loosen(self.proof.target);
         }
@@ -281,12 +306,12 @@ impl Walk<'_, '_, '_> {
     }
 
     /// Least ratio N / C of the coefficients, its index, and the greatest C.
-    fn least_ratio(&self, at: usize) -> (f64, usize, f64) {
-        self.sheet.grid.least_ratio(self.slot(at))
+    fn least_ratio(&self, area: &Area, at: usize) -> (f64, usize, f64) {
+        self.grid(area).least_ratio(self.slot(at))
     }
 
     fn bound(&self, area: &Area, at: usize) -> f64 {
-        (self.least_ratio(at).0 - area.error).max(0.0).sqrt() * (1.0 - 4.0 * HALF_ULP)
+        (self.least_ratio(area, at).0 - area.error).max(0.0).sqrt() * (1.0 - 4.0 * HALF_ULP)
     }
 
     fn judge(&mut self, area: &mut Area, at: usize) -> Verdict {
@@ -297,7 +322,7 @@ impl Walk<'_, '_, '_> {
             return Verdict::Closed;
         }
         if self.proof.best == f64::INFINITY {
-            let start = self.start(area, at, self.least_ratio(at).1);
+            let start = self.start(area, at, self.least_ratio(area, at).1);
             self.iterate(self.sheet.range, start);
             area.error += 8.0 * HALF_ULP * self.proof.target_squared;
             if self.proof.is_trivial() {
@@ -308,19 +333,17 @@ impl Walk<'_, '_, '_> {
         if !self.proof.spend() || can == [false; 2] {
             return Verdict::GiveUp;
         }
-        let (mut bound, mut place, mut weight) = self.least_ratio(at);
+        let (mut bound, mut place, mut weight) = self.least_ratio(area, at);
         let close = bound > self.proof.level_squared() && area.age > 0;
         if area.age >= FRESH || close {
             if self.load(area, at) || self.is_beyond(area, at) {
                 return Verdict::Closed;
             }
-            (bound, place, weight) = self.least_ratio(at);
-        } else if (self.proof.tying || self.hard() && area.age.is_multiple_of(TILT_EVERY))
-            && self.cut_free(area).is_none()
-        {
+            (bound, place, weight) = self.least_ratio(area, at);
+        } else if self.is_worth_a_cut(area) && self.cut_free(area).is_none() {
             return Verdict::Closed;
         }
-        let allowance = 2.0 * area.error * weight;
+        let allowance = 2.0 * area.error * area.growth * weight;
         let slopes = self.slopes(area, at, bound);
         for (k, [low, high]) in [slopes.s, slopes.t].into_iter().enumerate() {
             if low > allowance || high < -allowance {
@@ -341,32 +364,38 @@ impl Walk<'_, '_, '_> {
             return Verdict::Closed;
         }
         self.probe(area, at, place);
-        let [along_s, along_t] = slopes.steepest(self.degree);
+        let [along_s, along_t] = slopes.steepest(self.grid(area).degree);
+        self.lower(area, at);
         // A direction narrower than the grain of doubles cannot be halved: its middle would be one of its ends.
         if can[0] && (along_s >= along_t || !can[1]) { Verdict::HalveS } else { Verdict::HalveT }
     }
 
     /// Differences of `N - mu C`.
-    fn differences(&mut self, at: usize, mu: f64) -> Differences {
+    fn differences(&mut self, area: &Area, at: usize, mu: f64) -> Differences {
         let slot = &self.memory.coefficients[at * self.slot..(at + 1) * self.slot];
-        self.sheet.grid.differences(slot, mu, &mut self.memory.h)
+        self.sheet.ladder.grid(area.rung).differences(slot, mu, &mut self.memory.h)
     }
 
     /// Differences of `h` over every squared distance that a nearest point in this area can have: first ones of both
     /// ends, second ones of the greatest.
     fn slopes(&mut self, area: &Area, at: usize, bound: f64) -> Differences {
         let [first, last] = self.proof.counted(bound - area.error);
-        let mut slopes = self.differences(at, last);
+        let mut slopes = self.differences(area, at, last);
         if self.sheet.net.rational {
-            slopes.include_first(&self.differences(at, first));
+            slopes.include_first(&self.differences(area, at, first));
         }
         slopes
     }
 
     /// Where the distance is likely least, when coefficient `place` of slot `at` has the least ratio.
     fn vertex(&self, area: &Area, at: usize, place: usize) -> [f64; 2] {
-        let [s, t] = self.sheet.grid.vertex(self.slot(at), place);
+        let [s, t] = self.share(area, at, place);
         [area.s[0] + s * (area.s[1] - area.s[0]), area.t[0] + t * (area.t[1] - area.t[0])]
+    }
+
+    /// As [`Self::vertex`], as a share of the area.
+    fn share(&self, area: &Area, at: usize, place: usize) -> [f64; 2] {
+        self.grid(area).vertex(self.slot(at), place)
     }
 
     /// The best foot when it is inside, the vertex at coefficient `place` otherwise.
@@ -383,6 +412,11 @@ impl Walk<'_, '_, '_> {
     /// Looks at one point of an area that is not closed yet, and iterates from it (over the whole patch: a foot on
     /// the border of an area would be none) when it is nearer than the target: a target far too high makes `h` concave (by its term in C), and no test could ever close.
     fn probe(&mut self, area: &Area, at: usize, place: usize) {
+        // What the coefficients tell of the place is less work than its point.
+        let ratio = self.grid(area).ratio_at(self.slot(at), self.share(area, at, place));
+        if ratio > self.proof.level_squared() + area.error {
+            return;
+        }
         let at = self.vertex(area, at, place);
         let d = self.sheet.net.vector(at[0], at[1], self.sheet.query);
         self.proof.evaluations += 1;
@@ -443,17 +477,18 @@ impl Walk<'_, '_, '_> {
         weight: f64,
         slopes: &Differences,
     ) -> bool {
-        let allowance = 4.0 * area.error * weight;
+        let allowance = 4.0 * area.error * area.growth * weight;
+        let degree = self.grid(area).degree;
         let rational = self.sheet.net.rational;
         // `h` is linear in the squared distance: convex for the least and the greatest that count, all feet are least
         // points of the area, and there is one.
-        let one_foot = !rational || slopes.convexity(self.degree, allowance).is_some();
+        let one_foot = !rational || slopes.convexity(degree, allowance).is_some();
         let tying = self.proof.tying;
         if tying && !one_foot {
             return false;
         }
         let mu = self.proof.least_counted();
-        let Some(mut m) = self.curvature(at, mu, allowance, slopes) else { return false };
+        let Some(mut m) = self.curvature(area, at, mu, allowance, slopes) else { return false };
         let start = self.start(area, at, place);
         let known = self.proof.jet_at(Site { piece: self.sheet.piece, at: start });
         if let Some(jet) = known.filter(|_| !tying) {
@@ -471,7 +506,7 @@ impl Walk<'_, '_, '_> {
         }
         if rational && self.proof.least_counted() != mu {
             let nearer = self.proof.least_counted();
-            match self.curvature(at, nearer, allowance, slopes) {
+            match self.curvature(area, at, nearer, allowance, slopes) {
                 Some(curvature) => m = curvature,
                 None => return false,
             }
@@ -486,86 +521,32 @@ impl Walk<'_, '_, '_> {
     /// Bounds of the second derivatives of `h` for the squared distance `mu` (see [`Differences::convexity`]).
     fn curvature(
         &mut self,
+        area: &Area,
         at: usize,
         mu: f64,
         allowance: f64,
         slopes: &Differences,
     ) -> Option<[f64; 3]> {
+        let degree = self.grid(area).degree;
         if self.sheet.net.rational {
-            self.differences(at, mu).convexity(self.degree, allowance)
+            self.differences(area, at, mu).convexity(degree, allowance)
         } else {
-            slopes.convexity(self.degree, allowance)
+            slopes.convexity(degree, allowance)
         }
-    }
-
-    /// Whether a plane that fits the net in the scratch memory separates it from the query.
-    fn is_under_a_tilted_plane(&mut self) -> bool {
-        let degree = self.sheet.net.degree;
-        let (count, position) = (degree.count(), self.sheet.position);
-        let corners = [0, degree.t, degree.s * (degree.t + 1), count - 1];
-        let height = tilted_height(&self.memory.net[..4 * count], count, corners, self.proof);
-        let beyond_ties = height > least_height(self.proof.reach(), position);
-        let hit = if self.proof.tying {
-            beyond_ties
-        } else {
-            height > least_height(self.proof.target, position)
-        };
-        self.tilts = (self.tilts.0 + 1, self.tilts.1 + u64::from(hit));
-        if hit && !beyond_ties {
-            self.proof.loosen(self.proof.target);
-        }
-        hit
-    }
-
-    /// The poles of an area into the scratch memory, as `r` and `W`, and their radius; `None` when a plane separates
-    /// them from the query.
-    fn cut_free(&mut self, area: &mut Area) -> Option<f64> {
-        let patch = &self.sheet.net;
-        let count = patch.degree.count();
-        let net = &mut self.memory.net[..4 * count];
-        let lanes = &mut self.memory.lanes[..count];
-        let query = self.sheet.query;
-        let (degree, rational, poles) = (patch.degree, patch.rational, patch.lanes);
-        let (s, t) = (area.s, area.t);
-        let cut = CutFree { poles, degree, rational, s, t, query, lanes, net };
-        let radius = patch.level.run(cut);
-        let known = self.proof.best.is_finite();
-        if known && plane_separates(net, count, self.proof, self.sheet.position) {
-            return None;
-        }
-        if known && self.hard() && self.is_under_a_tilted_plane() {
-            return None;
-        }
-        if self.proof.tying {
-            let near = nearness(&self.memory.net[..4 * count], count, self.proof);
-            area.small = near.small;
-            if near.around_foot {
-                return None;
-            }
-        }
-        Some(radius)
-    }
-
-    /// Rebuilds the coefficients of slot `at` from the poles; true when a plane already separates the query.
-    fn load(&mut self, area: &mut Area, at: usize) -> bool {
-        let Some(radius) = self.cut_free(area) else { return true };
-        let count = self.sheet.net.degree.count();
-        let slot = &mut self.memory.coefficients[at * self.slot..(at + 1) * self.slot];
-        self.sheet.grid.square(&mut self.memory.lanes[..count], slot);
-        self.set_error(area, at, radius, 3 * count);
-        false
     }
 
     fn halve(&mut self, area: Area, at: usize, direction: usize) {
         if let Some(middle) = self.beyond_tip(&area, direction) {
-            return self.cut(area, direction, middle);
+            return self.cut(area, at, direction, middle);
         }
         let (low, high) =
             self.memory.coefficients[at * self.slot..(at + 2) * self.slot].split_at_mut(self.slot);
-        let [least, least_high] = self.sheet.grid.halve(direction, low, high);
-        let n = if direction == 0 { self.degree.s } else { self.degree.t };
+        let grid = self.sheet.ladder.grid(area.rung);
+        let [least, least_high] = grid.halve(direction, low, high);
+        let n = if direction == 0 { grid.degree.s } else { grid.degree.t };
         let growth = 2.0 * HALF_ULP * n as f64 * area.radius * area.radius;
-        let child = Area { error: area.error + growth, age: area.age + 1, ..area };
+        let mut child = Area { error: area.error + growth, age: area.age + 1, ..area };
+        child.patience[direction] = area.patience[direction].saturating_sub(1);
         let mut pair = [child; 2];
         let [a, b] = if direction == 0 { area.s } else { area.t };
         let middle = 0.5 * (a + b);

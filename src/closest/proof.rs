@@ -76,6 +76,8 @@ pub struct Proof<'t> {
     pub spent: u64,
     /// Valleys tried, and areas closed by them.
     pub valleys: (u64, u64),
+    /// Tilted planes tried, and boxes closed by them.
+    pub tilts: (u64, u64),
     /// Most boxes.
     pub budget: u64,
     /// Evaluations of the shape.
@@ -124,6 +126,7 @@ impl<'t> Proof<'t> {
             spread: 0.0,
             spent: 0,
             valleys: (0, 0),
+            tilts: (0, 0),
             budget,
             evaluations: 0,
             exhausted: false,

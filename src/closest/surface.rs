@@ -324,7 +324,7 @@ impl SurfaceSearch<'_> {
 
     /// A place that is likely near.
     fn near(&self) -> Option<(usize, [f64; 2])> {
-        let level = self.index.grid.level;
+        let level = self.index.level;
         let glance = || self.index.tree.glance(self.query);
         let near = self.reach.and_then(|reach| reach.start(self.query, level, glance));
         near.or_else(|| self.guess())
@@ -520,11 +520,12 @@ impl SurfaceSearch<'_> {
         let Some(range) = self.local_range(k) else { return true };
         let patch = &self.index.patches[k];
         let query = sub(self.query, patch.center);
-        let (net, grid) = (self.index.net(k), &self.index.grid);
+        let (net, ladder) = (self.index.net(k), &self.index.ladder);
         let (rational, size) = (self.index.rational, norm(self.query));
         let position = position_error(self.steps, rational, patch.radius, norm(query), size);
         let is_whole = range == [0.0, 1.0, 0.0, 1.0];
         let tensors = self.index.tensors(k).filter(|_| is_whole);
+        let grid = ladder.whole();
         let far = Far { net, tensors, radius: patch.radius, query, position, grid };
         if !patch.has_collapsed() && far.decides(proof) {
             return true;
@@ -542,7 +543,7 @@ impl SurfaceSearch<'_> {
             position,
             range,
             border: [0, 1, 2, 3].map(|e| patch.border[e] || cut[e]),
-            grid,
+            ladder,
             edge_grids: &self.index.edge_grids,
             method: self.options.method,
             reach: self.reach,

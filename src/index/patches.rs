@@ -9,7 +9,7 @@ use super::reach::{Cell, Net, Raster, Reach};
 use crate::analytic::Analytic;
 use crate::bezier::Bidegree;
 use crate::bounds::{Vector, sub};
-use crate::coefficients::Grid;
+use crate::coefficients::{Grid, Ladder};
 use crate::error::Error;
 use crate::jet::{BezierPatch, pole_distance};
 use crate::simd::Level;
@@ -45,8 +45,10 @@ pub struct SurfaceIndex {
     pub reach: Option<Reach>,
     cells: (Vec<Cell>, Raster),
     numbers: Store,
-    /// The coefficient arrays of its patches.
-    pub grid: Grid,
+    /// Vector instructions.
+    pub level: Level,
+    /// The coefficient arrays of its patches, and those of lower degrees.
+    pub ladder: Ladder,
     /// Those of their edges along s and along t.
     pub edge_grids: [Grid; 2],
 }
@@ -87,7 +89,8 @@ impl SurfaceIndex {
             reach: None,
             cells: (all.cells, raster),
             numbers,
-            grid: Grid::new(degree, rational, level),
+            level,
+            ladder: Ladder::new(degree, rational, level),
             edge_grids: [degree.s, degree.t]
                 .map(|t| Grid::new(Bidegree { s: 0, t }, rational, level)),
         })
@@ -122,7 +125,7 @@ impl SurfaceIndex {
             rational: self.rational,
             poles,
             lanes,
-            level: self.grid.level,
+            level: self.level,
         }
     }
 
@@ -160,7 +163,7 @@ impl SurfaceIndex {
             + self.numbers.memory()
             + self.patches.capacity() * size_of::<Patch>()
             + self.tree.memory()
-            + self.grid.memory()
+            + self.ladder.memory()
             + self.edge_grids.iter().map(Grid::memory).sum::<usize>()
             + self.analytic.as_ref().map_or(0, |analytic| analytic.memory())
             + self.reach.as_ref().map_or(0, Reach::memory)

@@ -132,7 +132,7 @@ impl Caster {
     /// [`Error::OutOfMemory`]; [`Error::Cancelled`] when `poll` said so.
     pub fn new(shape: Arc<IndexedSurface>, poll: Poll) -> Result<Self, Error> {
         let index = shape.index(poll)?;
-        let level = index.grid.level;
+        let level = index.level;
         let cells = cells_of(index, poll)?;
         Ok(Self { shape, cells, level })
     }

@@ -64,11 +64,14 @@ impl Walk<'_, '_, '_> {
         let (n, c) = product.split_at_mut(2 * MAX_DEGREE + 1);
         let (n, c) = (&mut n[..=2 * p], &mut c[..=2 * p]);
         let rational = self.sheet.net.rational;
-        for i in 0..=2 * p {
-            let place = self.place_on_side(k, i);
-            n[i] = self.n(at)[place];
-            if rational {
-                c[i] = self.c(at)[place];
+        let is_whole = area.rung == [0; 2];
+        if is_whole {
+            for i in 0..=2 * p {
+                let place = self.place_on_side(k, i);
+                n[i] = self.n(area, at)[place];
+                if rational {
+                    c[i] = self.c(area, at)[place];
+                }
             }
         }
         let poles = &net[..components * (p + 1)];
@@ -96,7 +99,7 @@ impl Walk<'_, '_, '_> {
             reach: None,
         };
         let c = if rational { &c[..] } else { &[] };
-        let source = Source::Products(n, c);
+        let source = if is_whole { Source::Products(n, c) } else { Source::Poles };
         let given = Given { source, error: area.error, radius: area.radius, foot };
         let before = self.proof.best;
         search_line(&line, &given, &mut self.memory.line, self.proof);
@@ -120,12 +123,13 @@ impl Walk<'_, '_, '_> {
 
     /// Index of product coefficient `i` along side `k`.
     fn place_on_side(&self, k: usize, i: usize) -> usize {
-        let width = self.degree.t + 1;
+        let degree = self.sheet.ladder.whole().degree;
+        let width = degree.t + 1;
         match k {
             side::S0 => i,
-            side::S1 => self.degree.s * width + i,
+            side::S1 => degree.s * width + i,
             side::T0 => i * width,
-            _ => i * width + self.degree.t,
+            _ => i * width + degree.t,
         }
     }
 
@@ -184,7 +188,8 @@ impl Walk<'_, '_, '_> {
         weight: f64,
     ) -> ((f64, f64), f64) {
         let mut memory = std::mem::take(&mut self.memory.turning);
-        let n_degree = [self.degree.s, self.degree.t][along(k)] as f64;
+        let degree = self.sheet.ladder.whole().degree;
+        let n_degree = [degree.s, degree.t][along(k)] as f64;
         let found = if self.sheet.net.rational {
             let net = self.sheet.net.degree;
             let w = &mut self.memory.weights;
@@ -192,12 +197,12 @@ impl Walk<'_, '_, '_> {
             w.extend_from_slice(&self.sheet.net.poles[3 * net.count()..]);
             cut_2d(w, net, area.s, area.t);
             let slot = &self.memory.coefficients[at * self.slot..(at + 1) * self.slot];
-            let n = self.sheet.grid.n(slot);
+            let n = self.sheet.ladder.whole().n(slot);
             let found = rational_slope_extent(n, w, net, k, &mut memory);
             let size = product_steps(2 * net.count()) * area.radius * area.radius;
             (found, 8.0 * n_degree * extent(w).1 * weight * (area.error + size))
         } else {
-            (slope_extent(self.n(at), self.degree, k, &mut memory), 2.0 * n_degree * area.error)
+            (slope_extent(self.n(area, at), degree, k, &mut memory), 2.0 * n_degree * area.error)
         };
         self.memory.turning = memory;
         found

@@ -3,7 +3,7 @@
 
 use super::{Area, LEAST_WIDTH, Walk};
 use crate::bezier::Bidegree;
-use crate::bounds::{Vector, norm, sub};
+use crate::bounds::{HALF_ULP, Vector, norm, sub};
 
 /// How far from the tip an area is cut, in distances of the best foot.
 const BEYOND: f64 = 4.0;
@@ -35,7 +35,8 @@ impl Walk<'_, '_, '_> {
             (last, row(degree - 1))
         };
         let speed = |k: usize| degree as f64 * norm(sub(next[k], side[k]));
-        let share = BEYOND * best / speed(0).min(speed(2));
+        // A power of two: the parts can be halved without rounding for as long as they have digits.
+        let share = power_of_two(2.0 * BEYOND * best / speed(0).min(speed(2)));
         if share.is_nan() || share > 0.125 * (high - low) || share < LEAST_WIDTH {
             return None;
         }
@@ -47,15 +48,34 @@ impl Walk<'_, '_, '_> {
         [x / w, y / w, z / w]
     }
 
-    /// Cuts an area; the coefficients of the parts are formed from the poles when their turn comes. The narrow one is next.
-    pub(super) fn cut(&mut self, area: Area, direction: usize, middle: f64) {
+    /// Cuts an area. The narrow part is next; its coefficients are formed from the poles, since little is left of the digits of
+    /// those that are there. Those of the wide part are cut out of them.
+    pub(super) fn cut(&mut self, area: Area, at: usize, direction: usize, middle: f64) {
         let [a, b] = if direction == 0 { area.s } else { area.t };
         let low_is_narrow = middle - a < b - middle;
         let (low, high) = ([a, middle], [middle, b]);
-        for ends in if low_is_narrow { [high, low] } else { [low, high] } {
+        let parts = if low_is_narrow { [high, low] } else { [low, high] };
+        let [mut wide, mut narrow] = parts.map(|ends| {
             let mut part = Area { unformed: true, ..area };
             *(if direction == 0 { &mut part.s } else { &mut part.t }) = ends;
-            self.memory.waiting.push(part);
+            part
+        });
+        narrow.patience = [0; 2];
+        // Otherwise the share is rounded, and so is the place that it stands for.
+        if b - a == power_of_two(b - a) {
+            let grid = self.sheet.ladder.grid(area.rung);
+            let slot = &mut self.memory.coefficients[at * self.slot..(at + 1) * self.slot];
+            grid.cut(direction, (middle - a) / (b - a), low_is_narrow, slot);
+            let n = if direction == 0 { grid.degree.s } else { grid.degree.t };
+            let growth = 6.0 * HALF_ULP * n as f64 * area.radius * area.radius;
+            (wide.unformed, wide.error, wide.age) = (false, area.error + growth, area.age + 1);
         }
+        self.memory.waiting.extend([wide, narrow]);
     }
+}
+
+/// The greatest power of two that is not above a positive number.
+fn power_of_two(x: f64) -> f64 {
+    const EXPONENT: u64 = 0x7ff << 52;
+    f64::from_bits(x.to_bits() & EXPONENT)
 }

@@ -14,7 +14,7 @@ use super::super::certificate::free_slope;
 use super::{Area, Walk};
 use crate::bezier::{binomial, cut};
 use crate::bounds::{HALF_ULP, extent};
-use crate::coefficients::Differences;
+use crate::coefficients::{Differences, bernstein};
 
 /// Boxes of a query after which valleys are looked for; after some tries of which less than one in four closed its area, in
 /// one box of `SELDOM`.
@@ -47,7 +47,8 @@ impl Walk<'_, '_, '_> {
         }
         self.proof.valleys.0 += 1;
         let level = self.proof.level_squared();
-        let slopes = if self.sheet.net.rational { self.differences(at, level) } else { *slopes };
+        let slopes =
+            if self.sheet.net.rational { self.differences(area, at, level) } else { *slopes };
         let Some(height) = self.floor(area, at, weight, &slopes) else { return false };
         if height <= (self.proof.tie_squared() - level) * weight {
             self.proof.loosen(self.proof.target);
@@ -58,7 +59,7 @@ impl Walk<'_, '_, '_> {
 
     /// A positive lower bound of `N - level C` from the floor of the valley.
     fn floor(&mut self, area: &Area, at: usize, weight: f64, slopes: &Differences) -> Option<f64> {
-        let (degree, error) = (self.degree, area.error * weight);
+        let (degree, error) = (self.grid(area).degree, area.error * area.growth * weight);
         let level = self.proof.level_squared();
         let bend = |n: usize, least: f64| (n * n.saturating_sub(1)) as f64 * (least - 4.0 * error);
         let (a, c) = (bend(degree.s, slopes.ss), bend(degree.t, slopes.tt));
@@ -72,7 +73,7 @@ impl Walk<'_, '_, '_> {
         memory.clear();
         memory.resize((m + 1) * (2 * n + 1) + 2 * curve, 0.0);
         let (h, rest) = memory.split_at_mut((m + 1) * (n + 1));
-        let (values, weights) = (self.n(at), self.c(at));
+        let (values, weights) = (self.n(area, at), self.c(area, at));
         let mut size = 0.0_f64;
         for j in 0..=n {
             for i in 0..=m {
@@ -236,13 +237,16 @@ fn least_point(coefficients: &[f64]) -> f64 {
     at
 }
 
-/// Value and two derivatives of a polynomial of degree >= 2 (algorithm of de Casteljau).
+/// Value and two derivatives of a polynomial of degree >= 2: means of three coefficients each, weighted by the Bernstein polynomials of
+/// a degree that is less by two.
 fn jet(coefficients: &[f64], t: f64) -> [f64; 3] {
-    let (n, mut b) = (coefficients.len() - 1, [0.0; MOST_DEGREE + 1]);
-    b[..=n].copy_from_slice(coefficients);
-    for level in (3..=n).rev() {
-        for k in 0..level {
-            b[k] += t * (b[k + 1] - b[k]);
+    let n = coefficients.len() - 1;
+    let mut shares = [0.0; MOST_DEGREE + 1];
+    bernstein(n - 2, t, &mut shares);
+    let mut b = [0.0; 3];
+    for (share, three) in shares.iter().zip(coefficients.windows(3)) {
+        for (sum, x) in b.iter_mut().zip(three) {
+            *sum += share * x;
         }
     }
     let (low, high) = (b[1] - b[0], b[2] - b[1]);

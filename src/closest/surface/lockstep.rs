@@ -89,7 +89,7 @@ impl IndexedSurface {
             return;
         }
         let at = [0, 1].map(|k| row(found, |(_, sought)| sought.at[k]));
-        let points = self.surface().evaluate_together(&at, index.grid.level);
+        let points = self.surface().evaluate_together(&at, index.level);
         for (q, &(number, sought)) in found.iter().enumerate() {
             let (query, _) = asked(number);
             let point = points.map(|row| row[q]);
@@ -212,14 +212,14 @@ impl IndexedSurface {
             let bend = reach.bend(landing.flight.piece, landing.seen);
             (landed.bends[0][q], landed.bends[1][q]) = (bend[0], bend[1]);
         }
-        let bounds = settled_together(reach, landed, index.degree, index.grid.level);
+        let bounds = settled_together(reach, landed, index.degree, index.level);
         let mut at = [[0.0; WIDTH]; 2];
         for q in 0..WIDTH {
             let Landing { flight, .. } = landings[q.min(landings.len() - 1)];
             let patch = &index.patches[flight.piece];
             (at[0][q], at[1][q]) = (patch.u.global(flight.at[0]), patch.v.global(flight.at[1]));
         }
-        let points = self.surface().evaluate_together(&at, index.grid.level);
+        let points = self.surface().evaluate_together(&at, index.level);
         for (q, (landing, bound)) in landings.iter().zip(bounds).enumerate() {
             let flight = landing.flight;
             let (query, _) = asked(flight.number);
@@ -271,7 +271,7 @@ fn advance(
     alone: &mut Vec<(usize, Option<Left<[f64; 2]>>)>,
 ) {
     let SurfaceMemory { flights, landings, jets, steps, .. } = memory;
-    let level = index.grid.level;
+    let level = index.level;
     let mut kept = 0;
     for first in (0..flights.len()).step_by(WIDTH) {
         let count = (flights.len() - first).min(WIDTH);
