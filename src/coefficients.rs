@@ -87,12 +87,12 @@ impl Differences {
     }
 
     /// Lower bounds `a`, `c` of the two pure second derivatives and an upper bound `b` of the mixed one, in unit
-    /// parameters, when `a c > b^2`: then the polynomial is convex. Every second difference may be off by `allowance`.
-    pub fn convexity(&self, degree: Bidegree, allowance: f64) -> Option<[f64; 3]> {
+    /// parameters, when `a c > b^2`: then the polynomial is convex. The second differences may be off by `allowance` each.
+    pub fn convexity(&self, degree: Bidegree, allowance: [f64; 3]) -> Option<[f64; 3]> {
         let (n, m) = (degree.s as f64, degree.t as f64);
-        let a = n * (n - 1.0) * (self.ss - allowance);
-        let b = n * m * (self.st + allowance);
-        let c = m * (m - 1.0) * (self.tt - allowance);
+        let a = n * (n - 1.0) * (self.ss - allowance[0]);
+        let b = n * m * (self.st + allowance[1]);
+        let c = m * (m - 1.0) * (self.tt - allowance[2]);
         // The determinant must keep enough digits for the first-order bound that divides by it.
         (a > 0.0 && c > 0.0 && a * c * (1.0 - 1e-5) > b * b).then_some([a, b, c])
     }
@@ -473,9 +473,9 @@ mod tests {
         let saddle = of([0.0, 0.0, -1.0, 0.0, 0.0, -1.0, 1.0, 1.0, 0.0]);
         // |(s, t, 4 s t)|^2 around the query (0.5, 0.5, -1), two minima: the mixed difference decides.
         let twisted = of([0.5, 0.0, 0.5, 0.0, 2.0, 0.0, 0.5, 0.0, 0.5]);
-        assert_eq!(bowl.convexity(grid.degree, 0.0), Some([2.0, 0.0, 2.0]));
-        assert_eq!(bowl.convexity(grid.degree, 1.0), None);
-        assert_eq!(saddle.convexity(grid.degree, 0.0), None);
-        assert_eq!(twisted.convexity(grid.degree, 0.0), None);
+        assert_eq!(bowl.convexity(grid.degree, [0.0; 3]), Some([2.0, 0.0, 2.0]));
+        assert_eq!(bowl.convexity(grid.degree, [1.0; 3]), None);
+        assert_eq!(saddle.convexity(grid.degree, [0.0; 3]), None);
+        assert_eq!(twisted.convexity(grid.degree, [0.0; 3]), None);
     }
 }

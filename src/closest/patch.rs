@@ -14,7 +14,7 @@ use super::certificate::{LEAST_C, foot_plane_separates, squared_error, underflow
 use super::line::LineMemory;
 use super::proof::{Proof, Site};
 use crate::bezier::Bidegree;
-use crate::bounds::{HALF_ULP, Vector, dot, norm};
+use crate::bounds::{HALF_ULP, Vector, dot, norm, scaled, sub};
 use crate::coefficients::{Differences, Grid, Ladder, Rung};
 use crate::index::{Patch, Reach, product_steps};
 use crate::jet::{BezierPatch, Jet2};
@@ -30,12 +30,12 @@ const FRESH: u32 = 12;
 /// Boxes after which a patch is hard: there planes, tried at every second halving, close what squares do not.
 const HARD: u64 = 32;
 const TILT_EVERY: u32 = 2;
-/// Areas that may be this many times larger than what counts as one foot are looked at in a walk for ties: speeds are bounds.
-const SMALL: f64 = 4.0;
 /// Halvings of a patch in each direction before lower degrees are thought of.
 const WHOLE: [u32; 2] = [2; 2];
 /// Tilted planes that are tried before one in 16 must have closed its box.
-const TILT_TRIES: u64 = 8;
+const TILT_TRIES: u64 = 32;
+/// In a walk for ties: cuts of larger areas before one in 8 must have closed its area.
+const TIE_TRIES: u64 = 8;
 
 /// A patch in the search.
 pub struct Sheet<'a> {
@@ -127,8 +127,9 @@ struct Area {
     unformed: bool,
     /// The degrees of its coefficients.
     rung: Rung,
-    /// How much more their error is to differences, since they have lower degrees.
-    growth: f64,
+    /// How much more their error is to second differences along s and along t, since they have lower degrees; to first ones
+    /// its root.
+    growth: [f64; 2],
     /// Halvings in each direction before lower degrees are thought of.
     patience: [u32; 2],
     /// Whether lowering has failed: it keeps its degrees.
@@ -202,20 +203,46 @@ impl Walk<'_, '_, '_> {
         self.proof.spent - self.start > HARD && (tries < TILT_TRIES || 16 * hits > tries)
     }
 
-    /// Whether the poles of an area may tell more than its coefficients: planes do on hard patches; and whether an area holds one
-    /// foot at most, or the best foot alone, when it is small.
-    fn is_worth_a_cut(&self, area: &Area) -> bool {
+    /// Whether the poles of an area close it. They tell more than its coefficients on hard patches, by tilted planes; and whether
+    /// an area holds one foot at most, or the best foot alone, when it is small.
+    fn is_closed_by_poles(&mut self, area: &mut Area) -> bool {
         if self.hard() && area.age.is_multiple_of(TILT_EVERY) {
-            return true;
+            return self.cut_free(area).is_none();
         }
+        if !self.proof.tying {
+            return false;
+        }
+        if self.may_be_one_foot(area) {
+            return self.cut_free(area).is_none();
+        }
+        let (tries, hits) = self.proof.tie_cuts;
+        if tries >= TIE_TRIES && 8 * hits <= tries {
+            return false;
+        }
+        let closed = self.cut_free(area).is_none();
+        self.proof.tie_cuts = (tries + 1, hits + u64::from(closed));
+        closed
+    }
+
+    /// Whether an area may be so small that it holds one foot at most, or so near to the best foot that it holds no other: then
+    /// its middle is.
+    fn may_be_one_foot(&mut self, area: &Area) -> bool {
+        let apart = self.proof.apart_squared();
         let [s, t] = [area.s, area.t].map(|[a, b]| b - a);
         let size = self.speed[0] * s + self.speed[1] * t;
-        self.proof.tying && size * size <= SMALL * SMALL * self.proof.apart_squared()
+        if size * size <= apart {
+            return true;
+        }
+        let middle = [area.s, area.t].map(|[a, b]| 0.5 * (a + b));
+        let d = self.sheet.net.vector(middle[0], middle[1], self.sheet.query);
+        self.proof.evaluations += 1;
+        let away = sub(d, scaled(self.proof.direction, self.proof.best));
+        dot(away, away) <= apart
     }
 
     fn run(&mut self) -> bool {
         let [s0, s1, t0, t1] = self.sheet.range;
-        let mut first = Area { s: [s0, s1], t: [t0, t1], growth: 1.0, ..Area::default() };
+        let mut first = Area { s: [s0, s1], t: [t0, t1], growth: [1.0; 2], ..Area::default() };
         first.patience = WHOLE;
         self.proof.spread = self.proof.spread.max(self.sheet.patch.spread);
         self.look_at_collapsed_sides();
@@ -340,12 +367,12 @@ impl Walk<'_, '_, '_> {
                 return Verdict::Closed;
             }
             (bound, place, weight) = self.least_ratio(area, at);
-        } else if self.is_worth_a_cut(area) && self.cut_free(area).is_none() {
+        } else if self.is_closed_by_poles(area) {
             return Verdict::Closed;
         }
-        let allowance = 2.0 * area.error * area.growth * weight;
         let slopes = self.slopes(area, at, bound);
         for (k, [low, high]) in [slopes.s, slopes.t].into_iter().enumerate() {
+            let allowance = 2.0 * area.error * area.growth[k].sqrt() * weight;
             if low > allowance || high < -allowance {
                 self.follow_side(area, at, if low > allowance { 2 * k } else { 2 * k + 1 });
                 return Verdict::Closed;
@@ -477,7 +504,9 @@ impl Walk<'_, '_, '_> {
         weight: f64,
         slopes: &Differences,
     ) -> bool {
-        let allowance = 4.0 * area.error * area.growth * weight;
+        let [along_s, along_t] = area.growth;
+        let allowance = [along_s, (along_s * along_t).sqrt(), along_t]
+            .map(|growth| 4.0 * area.error * growth * weight);
         let degree = self.grid(area).degree;
         let rational = self.sheet.net.rational;
         // `h` is linear in the squared distance: convex for the least and the greatest that count, all feet are least
@@ -524,7 +553,7 @@ impl Walk<'_, '_, '_> {
         area: &Area,
         at: usize,
         mu: f64,
-        allowance: f64,
+        allowance: [f64; 3],
         slopes: &Differences,
     ) -> Option<[f64; 3]> {
         let degree = self.grid(area).degree;

@@ -78,6 +78,8 @@ pub struct Proof<'t> {
     pub valleys: (u64, u64),
     /// Tilted planes tried, and boxes closed by them.
     pub tilts: (u64, u64),
+    /// Nets cut out in a walk for ties, and boxes closed by them.
+    pub tie_cuts: (u64, u64),
     /// Most boxes.
     pub budget: u64,
     /// Evaluations of the shape.
@@ -127,6 +129,7 @@ impl<'t> Proof<'t> {
             spent: 0,
             valleys: (0, 0),
             tilts: (0, 0),
+            tie_cuts: (0, 0),
             budget,
             evaluations: 0,
             exhausted: false,

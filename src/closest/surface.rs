@@ -6,6 +6,7 @@ mod record;
 mod rescue;
 mod ties;
 
+use super::curve::neighbour;
 use super::local::{LOCAL_FLAGS, WholeSurface, surface_start};
 use super::lockstep::{Begin, Left};
 use super::patch::{Far, PatchMemory, Sheet, search_patch};
@@ -372,7 +373,7 @@ impl SurfaceSearch<'_> {
         self.cross(proof);
     }
 
-    /// Goes on in the neighbours when the best foot lies on the line between two patches.
+    /// Goes on in the neighbours when the best foot lies on the line between two patches, or on a seam.
     fn cross(&self, proof: &mut Proof) {
         let Some(site) = proof.site else { return };
         let (columns, rows) = (self.index.columns, self.index.patches.len() / self.index.columns);
@@ -383,22 +384,19 @@ impl SurfaceSearch<'_> {
                 1.0 => true,
                 _ => continue,
             };
+            let round = self.period(k).is_some();
             let mut next = place;
-            next[k] = if forward { place[k] + 1 } else { place[k].wrapping_sub(1) };
-            if next[k] >= [rows, columns][k] {
+            let Some(number) = neighbour(place[k], forward, [rows, columns][k], round) else {
                 continue;
-            }
+            };
+            next[k] = number;
             let piece = next[0] * columns + next[1];
             let Some(range) = self.local_range(piece) else { continue };
             let at = self.parameters(site);
             let patch = &self.index.patches[piece];
-            self.iterate_from(
-                piece,
-                [patch.u.local(at[0]), patch.v.local(at[1])],
-                range,
-                self.options.method,
-                proof,
-            );
+            let mut start = [patch.u.local(at[0]), patch.v.local(at[1])];
+            start[k] = if forward { 0.0 } else { 1.0 };
+            self.iterate_from(piece, start, range, self.options.method, proof);
         }
     }
 

@@ -22,10 +22,7 @@ use crate::knots::MAX_DEGREE;
 use crate::simd::{Kernel, Lanes, Level, Simd};
 
 /// Degrees to which products are lowered; those of nets are the halves.
-const RUNGS: [usize; 4] = [12, 8, 6, 4];
-
-/// Products of up to this degree are not worth lowering.
-const SMALL: usize = 6;
+const RUNGS: [usize; 2] = [12, 8];
 
 /// Most coefficients of a strand, in whole blocks.
 pub(super) const MOST: usize = (2 * MAX_DEGREE + 1).next_multiple_of(BLOCK);
@@ -189,9 +186,8 @@ struct Rungs {
 impl Rungs {
     fn new(factor: usize) -> Self {
         let mut degrees = vec![2 * factor];
-        if 2 * factor > SMALL {
-            degrees.extend(RUNGS.into_iter().filter(|degree| *degree < 2 * factor));
-        }
+        // Lower nets lie farther from the surface, and more boxes are halved: they must be far smaller.
+        degrees.extend(RUNGS.into_iter().filter(|degree| 3 * degree <= 4 * factor));
         let falls = |(i, from): (usize, &usize)| {
             degrees[i + 1..].iter().map(|to| Fall::new(*from, *to)).collect()
         };
@@ -507,9 +503,9 @@ mod tests {
     use super::*;
 
     const FACTORS: [Bidegree; 5] = [
-        Bidegree { s: 3, t: 4 },
+        Bidegree { s: 3, t: 6 },
         Bidegree { s: 7, t: 2 },
-        Bidegree { s: 1, t: 5 },
+        Bidegree { s: 1, t: 8 },
         Bidegree { s: 9, t: 8 },
         Bidegree { s: 14, t: 13 },
     ];
@@ -625,7 +621,7 @@ mod tests {
             let mut rung = [0; 2];
             for k in (0..2).filter(|k| ladder.has_lower([0; 2], *k)) {
                 let to = ladder.step(rung, k, &slot, 1.0, 1e-10).to;
-                assert_eq!(ladder.rungs[k].degrees[to as usize], 4);
+                assert_eq!(ladder.rungs[k].degrees[to as usize], 8);
                 let off = ladder.lower(rung, k, to, &mut slot);
                 assert!(off[0] < 1e-10 && off[1] < 1e-10, "{off:?}");
                 rung[k] = to;
@@ -655,9 +651,9 @@ mod tests {
             let of = |level: Level| {
                 let ladder = Ladder::new(Bidegree { s: 9, t: 8 }, rational, level);
                 let mut slot = gentle(ladder.whole(), 1.5);
-                let first = ladder.lower([0; 2], 1, 2, &mut slot);
-                let second = ladder.lower([0, 2], 0, 1, &mut slot);
-                let grid = ladder.grid([1, 2]);
+                let first = ladder.lower([0; 2], 1, 1, &mut slot);
+                let second = ladder.lower([0, 1], 0, 2, &mut slot);
+                let grid = ladder.grid([2, 1]);
                 (first, second, grid.n(&slot).to_vec(), grid.c(&slot).to_vec())
             };
             for level in Level::available() {

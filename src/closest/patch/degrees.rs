@@ -7,7 +7,7 @@ use crate::bounds::HALF_ULP;
 use crate::coefficients::Step;
 
 /// What lower degrees may likely add to the error of coefficients, in errors.
-const SHARE: f64 = 1.0;
+const SHARE: f64 = 0.25;
 /// Where they have added more than so many: such an area keeps its degrees.
 const MOST: f64 = 16.0;
 
@@ -40,7 +40,7 @@ impl Walk<'_, '_, '_> {
                 continue;
             }
             let [n, c] = ladder.lower(area.rung, k, to, slot);
-            area.growth *= ladder.growth(area.rung, k, to);
+            area.growth[k] *= ladder.growth(area.rung, k, to);
             area.rung[k] = to;
             let least_c = self.c(area, at).iter().fold(1.0_f64, |least, c| least.min(*c));
             let error = (area.error * (1.0 + c / least_c) + (n + mu * c) / least_c)
@@ -64,10 +64,10 @@ impl Walk<'_, '_, '_> {
         let ladder = self.sheet.ladder;
         let slot = &mut self.memory.coefficients[at * self.slot..(at + 1) * self.slot];
         ladder.grid(cut.rung).square(&mut self.memory.lanes[..cut.count], slot);
-        area.growth = 1.0;
+        area.growth = [1.0; 2];
         for k in 0..2 {
             if cut.rung[k] > 0 {
-                area.growth *= ladder.growth([0; 2], k, cut.rung[k]);
+                area.growth[k] = ladder.growth([0; 2], k, cut.rung[k]);
             }
         }
         area.rung = cut.rung;

@@ -59,10 +59,12 @@ impl Walk<'_, '_, '_> {
 
     /// A positive lower bound of `N - level C` from the floor of the valley.
     fn floor(&mut self, area: &Area, at: usize, weight: f64, slopes: &Differences) -> Option<f64> {
-        let (degree, error) = (self.grid(area).degree, area.error * area.growth * weight);
+        let (degree, error) = (self.grid(area).degree, area.error * weight);
         let level = self.proof.level_squared();
-        let bend = |n: usize, least: f64| (n * n.saturating_sub(1)) as f64 * (least - 4.0 * error);
-        let (a, c) = (bend(degree.s, slopes.ss), bend(degree.t, slopes.tt));
+        let bend = |n: usize, least: f64, k: usize| {
+            (n * n.saturating_sub(1)) as f64 * (least - 4.0 * error * area.growth[k])
+        };
+        let (a, c) = (bend(degree.s, slopes.ss, 0), bend(degree.t, slopes.tt, 1));
         let across_t = c >= a;
         let (m, n) = if across_t { (degree.s, degree.t) } else { (degree.t, degree.s) };
         if !(a.max(c) > 0.0 && error.is_finite() && m + n <= MOST_DEGREE) {
@@ -83,6 +85,8 @@ impl Walk<'_, '_, '_> {
                 size = size.max(h[j * (m + 1) + i].abs());
             }
         }
+        // What first differences need is more than enough for values.
+        let error = error * area.growth[0].max(area.growth[1]).sqrt();
         let error = error + 64.0 * (m + n) as f64 * HALF_ULP * size;
         let height = Floor { m, n, bend: a.max(c), error }.over(h, rest);
         self.memory.valley = memory;

@@ -81,7 +81,7 @@ impl SurfaceSearch<'_> {
     }
 
     /// Length of the domain in direction `k` when it is closed and not cut by a restriction.
-    fn period(&self, k: usize) -> Option<f64> {
+    pub(super) fn period(&self, k: usize) -> Option<f64> {
         let ends = &self.whole.surface.domain()[2 * k..2 * k + 2];
         (self.index.closed[k] && self.range[2 * k..2 * k + 2] == *ends).then_some(ends[1] - ends[0])
     }
