@@ -95,16 +95,17 @@ void grow(std::FILE *file, const char *experiment, std::vector<Subject> &subject
     }
 }
 
-void grow_patches(std::FILE *file, bool quick) {
+// Of degree 1 every line between pieces is a crease.
+void grow_patches(std::FILE *file, const char *experiment, int degree, bool quick) {
     constexpr int GRIDS[6][2] = {{1, 1}, {2, 5}, {10, 10}, {25, 40}, {100, 100}, {250, 400}};
     for (bool curve : {false, true}) {
         std::vector<Subject> subjects;
         for (const auto &grid : GRIDS) {
             const int pieces = grid[0] * grid[1];
-            const Geometry g = curve ? bumpy_sheet(3, 0, pieces) : bumpy_sheet(3, grid[0], grid[1]);
+            const Geometry g = curve ? bumpy_sheet(degree, 0, pieces) : bumpy_sheet(degree, grid[0], grid[1]);
             subjects.emplace_back(pieces, g, quick ? 4000 : 20000);
         }
-        grow(file, "pieces", subjects, quick ? 2 : 4);
+        grow(file, experiment, subjects, quick ? 2 : 4);
     }
 }
 
@@ -187,7 +188,8 @@ int main(int argc, char **argv) {
     grow_threads(file, quick);
     grow_batch(file, quick);
     grow_degree(file, quick);
-    grow_patches(file, quick);
+    grow_patches(file, "pieces", 3, quick);
+    grow_patches(file, "creased", 1, quick);
     std::fclose(file);
     return 0;
 }

@@ -144,11 +144,12 @@ def latency(figures):
 
 def growth(figures):
     lines = ["## Growth", "", "Sheets and curves of random heights, bicubic unless said; queries at most a quarter of a patch away, each at another place.", ""]
-    for experiment, x in (("pieces", "patches or segments"), ("degree", "degree (64 pieces)")):
+    for experiment, x in (("pieces", "patches or segments"), ("creased", "patches or segments of degree 1, all lines between them creases"),
+                          ("degree", "degree (64 pieces)")):
         rows = []
         for kind in ("surface", "curve"):
             for row in figures.growth[experiment, kind]:
-                pieces = row[0] if experiment == "pieces" else 64
+                pieces = 64 if experiment == "degree" else row[0]
                 rows.append([kind, f"{row[0]:,.0f}", show(row[1] / 1e3), show(row[2] / 1e3), show(row[3] / 1e3),
                              show(1e6 * row[4] / pieces), show(1e6 * row[5] / pieces), f"{row[6] / pieces:,.0f}"])
         lines += table(["shape", x, "single, median", "single, p99", "batch", "set-up per piece, one core", "set-up, all cores",
