@@ -25,15 +25,16 @@ const MAX_WAITING: usize = 128;
 const LEAST_WIDTH: f64 = 1e-14;
 /// Evaluations after which an iteration may have ended at its step limit.
 const LONG: u32 = 40;
-/// Halvings after which coefficients are rebuilt from the poles, to shed their rounding.
+/// Halvings after which coefficients are rebuilt from the poles, to shed their rounding, where the gap is so many errors.
 const FRESH: u32 = 12;
+const BLUR: f64 = 4096.0;
 /// Boxes after which a patch is hard: there planes, tried at every second halving, close what squares do not.
 const HARD: u64 = 32;
 const TILT_EVERY: u32 = 2;
 /// Halvings of a patch in each direction before lower degrees are thought of.
 const WHOLE: [u32; 2] = [2; 2];
-/// Tilted planes that are tried before one in 16 must have closed its box.
-const TILT_TRIES: u64 = 32;
+/// Tilted planes that a query tries before one in 16 must have closed its box.
+const TILT_TRIES: u64 = 16;
 /// In a walk for ties: cuts of larger areas before one in 8 must have closed its area.
 const TIE_TRIES: u64 = 8;
 
@@ -362,7 +363,8 @@ impl Walk<'_, '_, '_> {
         }
         let (mut bound, mut place, mut weight) = self.least_ratio(area, at);
         let close = bound > self.proof.level_squared() && area.age > 0;
-        if area.age >= FRESH || close {
+        let blurred = self.proof.level_squared() - bound <= BLUR * area.error;
+        if area.age >= FRESH && blurred || close {
             if self.load(area, at) || self.is_beyond(area, at) {
                 return Verdict::Closed;
             }
