@@ -102,7 +102,7 @@ impl Differences {
 const MOST: usize = 2 * MAX_DEGREE + 1;
 
 /// The Bernstein polynomials of a degree at x.
-pub fn bernstein(degree: usize, x: f64, out: &mut [f64]) {
+fn bernstein(degree: usize, x: f64, out: &mut [f64]) {
     let mut power = 1.0;
     for (k, value) in out[..=degree].iter_mut().enumerate() {
         *value = binomial(degree, k) * power;

@@ -137,6 +137,12 @@ struct Area {
     is_stiff: bool,
 }
 
+impl Area {
+    fn place(&self, [s, t]: [f64; 2]) -> [f64; 2] {
+        [self.s[0] + s * (self.s[1] - self.s[0]), self.t[0] + t * (self.t[1] - self.t[0])]
+    }
+}
+
 /// Memory of the search on patches.
 #[derive(Clone, Debug, Default)]
 pub struct PatchMemory {
@@ -416,13 +422,7 @@ impl Walk<'_, '_, '_> {
         slopes
     }
 
-    /// Where the distance is likely least, when coefficient `place` of slot `at` has the least ratio.
-    fn vertex(&self, area: &Area, at: usize, place: usize) -> [f64; 2] {
-        let [s, t] = self.share(area, at, place);
-        [area.s[0] + s * (area.s[1] - area.s[0]), area.t[0] + t * (area.t[1] - area.t[0])]
-    }
-
-    /// As [`Self::vertex`], as a share of the area.
+    /// Where the distance is likely least, when coefficient `place` of slot `at` has the least ratio: as a share of the area.
     fn share(&self, area: &Area, at: usize, place: usize) -> [f64; 2] {
         self.grid(area).vertex(self.slot(at), place)
     }
@@ -434,19 +434,22 @@ impl Walk<'_, '_, '_> {
         };
         match self.proof.site {
             Some(site) if site.piece == self.sheet.piece && inside(site.at) => site.at,
-            _ => self.vertex(area, at, place),
+            _ => area.place(self.share(area, at, place)),
         }
     }
 
     /// Looks at one point of an area that is not closed yet, and iterates from it (over the whole patch: a foot on
     /// the border of an area would be none) when it is nearer than the target: a target far too high makes `h` concave (by its term in C), and no test could ever close.
     fn probe(&mut self, area: &Area, at: usize, place: usize) {
-        // What the coefficients tell of the place is less work than its point.
-        let ratio = self.grid(area).ratio_at(self.slot(at), self.share(area, at, place));
-        if ratio > self.proof.level_squared() + area.error {
+        let share = self.share(area, at, place);
+        // What low degrees tell of the place is less work than its point.
+        if area.rung != Rung::default()
+            && self.grid(area).ratio_at(self.slot(at), share)
+                > self.proof.level_squared() + area.error
+        {
             return;
         }
-        let at = self.vertex(area, at, place);
+        let at = area.place(share);
         let d = self.sheet.net.vector(at[0], at[1], self.sheet.query);
         self.proof.evaluations += 1;
         if self.proof.attracts(d) {

@@ -14,7 +14,7 @@ use super::super::certificate::free_slope;
 use super::{Area, Walk};
 use crate::bezier::{binomial, cut};
 use crate::bounds::{HALF_ULP, extent};
-use crate::coefficients::{Differences, bernstein};
+use crate::coefficients::Differences;
 
 /// Boxes of a query after which valleys are looked for; after some tries of which less than one in four closed its area, in
 /// one box of `SELDOM`.
@@ -245,12 +245,12 @@ fn least_point(coefficients: &[f64]) -> f64 {
 /// a degree that is less by two.
 fn jet(coefficients: &[f64], t: f64) -> [f64; 3] {
     let n = coefficients.len() - 1;
-    let mut shares = [0.0; MOST_DEGREE + 1];
-    bernstein(n - 2, t, &mut shares);
-    let mut b = [0.0; 3];
-    for (share, three) in shares.iter().zip(coefficients.windows(3)) {
+    let (mut b, mut power) = ([coefficients[0], coefficients[1], coefficients[2]], 1.0);
+    for (k, three) in coefficients.windows(3).enumerate().skip(1) {
+        power *= t;
+        let share = binomial(n - 2, k) * power;
         for (sum, x) in b.iter_mut().zip(three) {
-            *sum += share * x;
+            *sum = *sum * (1.0 - t) + share * x;
         }
     }
     let (low, high) = (b[1] - b[0], b[2] - b[1]);
