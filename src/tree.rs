@@ -14,6 +14,10 @@ use crate::simd::{Kernel, Lanes, Level, Simd};
 
 const LEAF: u32 = 1 << 31;
 
+/// Nodes that [`Tree::seek`] opens at most, and parts that wait meanwhile: eight of each node but for the one that is next.
+const MOST_OPENED: usize = 24;
+const MOST_WAITING: usize = 7 * MOST_OPENED + 1;
+
 /// Children of a node.
 const WIDTH: usize = 8;
 
@@ -87,6 +91,11 @@ impl Tree {
         tree
     }
 
+    /// The instructions that it uses.
+    pub fn level(&self) -> Level {
+        self.level
+    }
+
     /// Bytes held.
     pub fn memory(&self) -> usize {
         self.nodes.capacity() * size_of::<Node>()
@@ -128,6 +137,40 @@ impl Tree {
         for (key, id) in keys.into_iter().zip(node.child) {
             if key < limit {
                 queue.push(Waiting { key, id });
+            }
+        }
+    }
+
+    /// Visits pieces near a query, the nearest of each node first, as long as boxes are nearer than the least square that
+    /// `visit` has told, and no more nodes than a search would: what is found is most likely near, not surely nearest.
+    pub fn seek(&self, query: Vector, mut visit: impl FnMut(usize) -> f64) {
+        let mut waiting = [Waiting { key: 0.0, id: 0 }; MOST_WAITING];
+        let (mut count, mut least, mut opened) = (1, f64::INFINITY, 0);
+        while count > 0 {
+            count -= 1;
+            let next = waiting[count];
+            if next.key >= least {
+                continue;
+            }
+            if let Some(piece) = next.piece() {
+                least = visit(piece);
+                continue;
+            }
+            if opened == MOST_OPENED {
+                return;
+            }
+            opened += 1;
+            let node = &self.nodes[next.id as usize];
+            let (keys, first) = (self.level.run(Distances { node, query }), count);
+            for (key, id) in keys.into_iter().zip(node.child).filter(|&(key, _)| key < least) {
+                // The nearest on top.
+                let mut at = count;
+                while at > first && waiting[at - 1].key < key {
+                    waiting[at] = waiting[at - 1];
+                    at -= 1;
+                }
+                waiting[at] = Waiting { key, id };
+                count += 1;
             }
         }
     }
@@ -315,6 +358,35 @@ mod tests {
             }
         }
         boxes
+    }
+
+    #[test]
+    fn a_search_for_a_near_piece_ends_at_the_nearest_of_a_few() {
+        let boxes = grid(7, 9);
+        let tree = Tree::new(&boxes, 7, 9, Level::PORTABLE);
+        let query = [3.2, 5.4, 2.0];
+        let square =
+            |k: usize| (0..3).map(|c| (boxes[k].low[c] + 0.5 - query[c]).powi(2)).sum::<f64>();
+        let (mut least, mut visited) = (f64::INFINITY, 0);
+        tree.seek(query, |piece| {
+            visited += 1;
+            least = square(piece).min(least);
+            least
+        });
+        let nearest = (0..boxes.len()).map(square).fold(f64::INFINITY, f64::min);
+        assert_eq!(least, nearest);
+        assert!(visited < boxes.len(), "{visited}");
+    }
+
+    #[test]
+    fn a_search_for_a_near_piece_ends_though_nothing_is_near() {
+        let tree = Tree::new(&grid(100, 100), 100, 100, Level::PORTABLE);
+        let mut visited = 0;
+        tree.seek([1e100; 3], |_| {
+            visited += 1;
+            f64::INFINITY
+        });
+        assert!((1..=8 * MOST_OPENED).contains(&visited), "{visited}");
     }
 
     #[test]

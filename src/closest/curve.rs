@@ -319,9 +319,7 @@ impl CurveSearch<'_> {
 
     /// A place that is likely near.
     fn near(&self) -> Option<(usize, f64)> {
-        let level = self.index.grid.level;
-        let glance = || self.index.tree.glance(self.query);
-        let near = self.reach.and_then(|reach| reach.start(self.query, level, glance));
+        let near = self.reach.map(|reach| reach.start(self.query, &self.index.tree));
         near.or_else(|| self.guess())
     }
 
@@ -353,7 +351,7 @@ impl CurveSearch<'_> {
                 Landing { at, seen: at, jet, taken }
             }
         };
-        proof.evaluations += taken;
+        proof.iterated(taken);
         let (rational, radius) = (self.index.is_rational(), self.index.segments[k].radius);
         let position = position_error(self.steps, rational, radius, norm(view.1), norm(self.query));
         let (degree, gap) = (self.index.degree(), proof.gap);

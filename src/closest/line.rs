@@ -302,7 +302,7 @@ impl<'a, 'b, 't> Walk<'a, 'b, 't> {
             found.2 += taken;
         }
         let (s, jet, taken) = found;
-        self.proof.evaluations += taken;
+        self.proof.iterated(taken);
         let along = || {
             let (a, b) = ((self.line.site)(0.0).at, (self.line.site)(1.0).at);
             jet.is_flat().then_some([b[0] - a[0], b[1] - a[1]])

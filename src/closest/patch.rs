@@ -4,12 +4,14 @@
 //! At a collapsed side the derivative along it vanishes for every shape: the collapsed point is looked at once,
 //! and off that side the sign of the derivative of the distance itself is used (see [`Walk::turning`]).
 
+mod area;
 mod basin;
 mod degrees;
 mod sides;
 mod tips;
 mod valley;
 
+use self::area::Area;
 use super::certificate::{LEAST_C, foot_plane_separates, squared_error, underflows};
 use super::line::LineMemory;
 use super::proof::{Proof, Site};
@@ -115,34 +117,6 @@ impl Far<'_> {
     }
 }
 
-#[derive(Clone, Copy, Debug, Default)]
-struct Area {
-    s: [f64; 2],
-    t: [f64; 2],
-    error: f64,
-    radius: f64,
-    age: u32,
-    /// In a walk for ties: whether it holds one foot at most.
-    small: bool,
-    /// Whether its slot holds nothing yet: its coefficients are formed from the poles when its turn comes.
-    unformed: bool,
-    /// The degrees of its coefficients.
-    rung: Rung,
-    /// How much more their error is to second differences along s and along t, since they have lower degrees; to first ones
-    /// its root.
-    growth: [f64; 2],
-    /// Halvings in each direction before lower degrees are thought of.
-    patience: [u32; 2],
-    /// Whether lowering has failed: it keeps its degrees.
-    is_stiff: bool,
-}
-
-impl Area {
-    fn place(&self, [s, t]: [f64; 2]) -> [f64; 2] {
-        [self.s[0] + s * (self.s[1] - self.s[0]), self.t[0] + t * (self.t[1] - self.t[0])]
-    }
-}
-
 /// Memory of the search on patches.
 #[derive(Clone, Debug, Default)]
 pub struct PatchMemory {
@@ -240,8 +214,8 @@ impl Walk<'_, '_, '_> {
         if size * size <= apart {
             return true;
         }
-        let middle = [area.s, area.t].map(|[a, b]| 0.5 * (a + b));
-        let d = self.sheet.net.vector(middle[0], middle[1], self.sheet.query);
+        let [s, t] = area.place([0.5; 2]);
+        let d = self.sheet.net.vector(s, t, self.sheet.query);
         self.proof.evaluations += 1;
         let away = sub(d, scaled(self.proof.direction, self.proof.best));
         dot(away, away) <= apart
@@ -438,15 +412,14 @@ impl Walk<'_, '_, '_> {
         }
     }
 
-    /// Looks at one point of an area that is not closed yet, and iterates from it (over the whole patch: a foot on
-    /// the border of an area would be none) when it is nearer than the target: a target far too high makes `h` concave (by its term in C), and no test could ever close.
+    /// Looks at one point of an area that is not closed yet, and iterates from it (over the whole patch: a foot on the border of
+    /// an area would be none) when it is nearer than the target: a target far too high makes `h` concave (by its term in C).
     fn probe(&mut self, area: &Area, at: usize, place: usize) {
         let share = self.share(area, at, place);
+        let enough = self.proof.level_squared() + area.error;
         // What low degrees tell of the place is less work than its point.
-        if area.rung != Rung::default()
-            && self.grid(area).ratio_at(self.slot(at), share)
-                > self.proof.level_squared() + area.error
-        {
+        let is_low = area.rung != Rung::default();
+        if is_low && self.grid(area).ratio_at(self.slot(at), share) > enough {
             return;
         }
         let at = area.place(share);
@@ -485,7 +458,7 @@ impl Walk<'_, '_, '_> {
         ended: bool,
     ) -> ([f64; 2], Jet2) {
         let (piece, before) = (self.sheet.piece, self.proof.best);
-        self.proof.evaluations += taken;
+        self.proof.iterated(taken);
         self.proof.offer(Site { piece, at }, jet.d, || jet.flat_direction());
         self.proof.rival(Site { piece, at }, jet.d);
         let inner = |k: usize| range[k] != self.sheet.range[k] && at[k / 2] == range[k];

@@ -6,9 +6,11 @@ use crate::jet::Jet2;
 /// Places remembered for ties; more of them say no more.
 const RIVALS: usize = 8;
 
-/// Share of the budget that the search for ties may take, and iterations from places met in it.
-const TIE_SHARE: u64 = 16;
+/// Share of the budget that the search for ties may take, iterations from places met in it, and evaluations that count as
+/// a box there.
+const TIE_SHARE: u64 = 24;
 const TIE_STARTS: usize = 16;
+const EVALUATIONS: u32 = 16;
 
 /// Where the best foot lies: a piece and its local parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -334,6 +336,14 @@ impl<'t> Proof<'t> {
         }
     }
 
+    /// Counts the evaluations of an iteration; in a walk for ties, which may follow a continuum slowly, they take of the budget.
+    pub fn iterated(&mut self, evaluations: u32) {
+        self.evaluations += evaluations;
+        if self.tying {
+            self.spent += u64::from(evaluations / EVALUATIONS);
+        }
+    }
+
     /// Counts one box; false when the budget is gone.
     pub fn spend(&mut self) -> bool {
         self.spent += 1;
@@ -359,5 +369,24 @@ pub fn note_loose(k: usize, loose: &mut Vec<(f64, usize)>, proof: &mut Proof) {
     if proof.loose < f64::INFINITY {
         loose.push((proof.loose, k));
         proof.loose = f64::INFINITY;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn iterations_take_of_the_budget_of_a_walk_for_ties_alone() {
+        let mut proof = Proof::new(1e-9, 240, None);
+        proof.iterated(1_000_000);
+        assert!(proof.spend());
+        proof.seek_ties();
+        for _ in 0..5 {
+            proof.iterated(EVALUATIONS);
+            assert!(proof.spend());
+        }
+        assert!(!proof.spend() && proof.exhausted);
+        assert_eq!(proof.evaluations, 1_000_000 + 5 * EVALUATIONS);
     }
 }

@@ -325,9 +325,7 @@ impl SurfaceSearch<'_> {
 
     /// A place that is likely near.
     fn near(&self) -> Option<(usize, [f64; 2])> {
-        let level = self.index.level;
-        let glance = || self.index.tree.glance(self.query);
-        let near = self.reach.and_then(|reach| reach.start(self.query, level, glance));
+        let near = self.reach.map(|reach| reach.start(self.query, &self.index.tree));
         near.or_else(|| self.guess())
     }
 
@@ -443,7 +441,7 @@ impl SurfaceSearch<'_> {
                 Landing { at, seen: at, jet, taken }
             }
         };
-        proof.evaluations += taken;
+        proof.iterated(taken);
         let patch = &self.index.patches[k];
         let (rational, p, q) = (self.index.rational, norm(view.1), norm(self.query));
         let position = position_error(self.steps, rational, patch.radius, p, q);

@@ -32,7 +32,7 @@ mod raster;
 use super::piece::reserved;
 use crate::bounds::Vector;
 use crate::error::Error;
-use crate::simd::Level;
+use crate::tree::Tree;
 pub use cell::{Cell, push_cells};
 pub use curve::{Across, Chain, CurveReach};
 use field::{Field, STRAIGHT, WIDEST};
@@ -171,23 +171,21 @@ impl Reach {
         f64::from(self.rims[side][cell[1 - side / 2]])
     }
 
-    /// A place near a query: a patch and local parameters, inside but on the sides of the surface. `near` tells a patch that is
-    /// near, where there are too many cells to look at.
-    pub fn start(
-        &self,
-        query: Vector,
-        level: Level,
-        near: impl FnOnce() -> Option<usize>,
-    ) -> Option<(usize, [f64; 2])> {
+    /// A place near a query: a patch and local parameters, inside but on the sides of the surface. `tree`: that of the patches.
+    pub fn start(&self, query: Vector, tree: &Tree) -> (usize, [f64; 2]) {
         let width = self.raster.starts[1][self.columns] as usize;
-        let climb = || {
-            let [i, j] = self.raster.cell(self.patch(near()?), [0.5; 2]);
-            Some(self.middles.climb(i * width + j, width, query))
+        let cells = |k: usize| {
+            let [row, column] = self.patch(k);
+            let [rows, columns] = [(0, row), (1, column)].map(|(k, n)| {
+                self.raster.starts[k][n] as usize..self.raster.starts[k][n + 1] as usize
+            });
+            rows.flat_map(move |i| columns.clone().map(move |j| i * width + j))
         };
-        let (cell, at) = self.middles.nearest(query, level).or_else(climb)?;
+        let nearest = self.middles.nearest(query, tree.level());
+        let (cell, at) = nearest.unwrap_or_else(|| self.middles.near(query, tree, cells));
         let (row, s) = self.raster.place(0, cell / width, at[0]);
         let (column, t) = self.raster.place(1, cell % width, at[1]);
-        Some((row * self.columns + column, [self.within(0, row, s), self.within(1, column, t)]))
+        (row * self.columns + column, [self.within(0, row, s), self.within(1, column, t)])
     }
 
     /// A local parameter of a row (0) or column (1) of patches moved off the lines where others go on.

@@ -41,7 +41,7 @@ impl CurveSearch<'_> {
         let view =
             (self.index.net(site.piece), sub(self.query, self.index.segments[site.piece].center));
         let (s, jet, taken) = foot_on_curve(&view, site.at[0], range, Method::Auto, None);
-        proof.evaluations += taken;
+        proof.iterated(taken);
         Some((Site { at: [s, 0.0], ..site }, jet.d))
     }
 

@@ -30,7 +30,7 @@ impl Walk<'_, '_, '_> {
             let room = [0, 1].map(|k| [range[2 * k] - at[k], range[2 * k + 1] - at[k]]);
             let model = least_in_box(jet.gradient(), jet.hessian(), room);
             let Some((step, gain)) = model.filter(|_| taken < MOST_STEPS) else {
-                self.proof.evaluations += taken;
+                self.proof.iterated(taken);
                 return self.iterate(range, at);
             };
             // The model is that of half the squared distance.
@@ -52,7 +52,7 @@ impl Walk<'_, '_, '_> {
             if next.squared() < jet.squared() {
                 (at, jet) = (to, next);
             } else {
-                self.proof.evaluations += taken;
+                self.proof.iterated(taken);
                 return self.iterate(range, at);
             }
         }

@@ -30,7 +30,7 @@ impl SurfaceSearch<'_> {
     fn roam(&self, start: Site, proof: &mut Proof) {
         let start = self.parameters(start);
         let (at, _, taken) = foot_on_surface(&self.whole, start, self.range, Method::Auto, None);
-        proof.evaluations += taken;
+        proof.iterated(taken);
         self.start_at(at, proof);
     }
 

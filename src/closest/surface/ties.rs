@@ -92,7 +92,7 @@ impl SurfaceSearch<'_> {
         let view =
             (self.index.net(site.piece), sub(self.query, self.index.patches[site.piece].center));
         let (at, jet, taken) = foot_on_surface(&view, site.at, range, Method::Auto, None);
-        proof.evaluations += taken;
+        proof.iterated(taken);
         Some((Site { at, ..site }, jet.d))
     }
 

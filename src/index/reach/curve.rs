@@ -18,7 +18,8 @@ use crate::error::Error;
 use crate::index::piece::{position_error, position_steps, reserved};
 use crate::index::segment::Segment;
 use crate::jet::BezierSegment;
-use crate::simd::{Lanes, Level};
+use crate::simd::Lanes;
+use crate::tree::Tree;
 
 /// Turn of the tangent in a cell that is aimed at, and the most cells, unless there are more segments.
 const AIM: f64 = 0.1;
@@ -181,22 +182,11 @@ impl CurveReach {
         }
     }
 
-    /// A place near a query: a segment and a local parameter, inside but at the ends of the curve. `near` tells a segment that
-    /// is near, where there are too many cells to look at.
-    pub fn start(
-        &self,
-        query: Vector,
-        level: Level,
-        near: impl FnOnce() -> Option<usize>,
-    ) -> Option<(usize, f64)> {
-        let climb = || {
-            let [first, next] = {
-                let k = near()?;
-                [0, 1].map(|n| self.starts[k + n] as usize)
-            };
-            Some(self.middles.climb(first.midpoint(next), self.cells.len(), query))
-        };
-        let (near, [at, _]) = self.middles.nearest(query, level).or_else(climb)?;
+    /// A place near a query: a segment and a local parameter, inside but at the ends of the curve. `tree`: that of the segments.
+    pub fn start(&self, query: Vector, tree: &Tree) -> (usize, f64) {
+        let cells = |k: usize| self.starts[k] as usize..self.starts[k + 1] as usize;
+        let nearest = self.middles.nearest(query, tree.level());
+        let (near, [at, _]) = nearest.unwrap_or_else(|| self.middles.near(query, tree, cells));
         let k = self.starts.partition_point(|&first| first as usize <= near) - 1;
         let [first, next] = [0, 1].map(|n| self.starts[k + n] as usize);
         let at = ((near - first) as f64 + at) / (next - first) as f64;
@@ -208,7 +198,7 @@ impl CurveReach {
         } else {
             at
         };
-        Some((k, at))
+        (k, at)
     }
 
     /// Bytes held.

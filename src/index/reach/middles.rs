@@ -4,12 +4,10 @@ use crate::bounds::Vector;
 use crate::error::Error;
 use crate::index::piece::reserved;
 use crate::simd::{Kernel, Level, Simd};
+use crate::tree::Tree;
 
-/// Most cells that are all looked at; of more, those around a near patch are climbed over.
+/// Most cells that are all looked at; of more, those of near pieces.
 const MOST: usize = 256;
-
-/// Steps of a climb.
-const CLIMB: usize = 8;
 
 /// Cells that are looked at together.
 const WIDTH: usize = 16;
@@ -62,24 +60,28 @@ impl Middles {
         Some((at, self.place(at, query)))
     }
 
-    /// As [`Self::nearest`], from a cell on to nearer ones beside it, where `width` cells are a row.
-    pub fn climb(&self, from: usize, width: usize, query: Vector) -> (usize, [f64; 2]) {
-        let query = query.map(|x| x as f32);
-        let (mut at, mut square) = (from, self.square(from, query));
-        let height = self.steps.len() / width;
-        for _ in 0..CLIMB {
-            let (mut next, [i, j]) = (at, [at / width, at % width]);
-            for (i, j) in [(i.wrapping_sub(1), j), (i + 1, j), (i, j.wrapping_sub(1)), (i, j + 1)] {
-                if i < height && j < width && self.square(i * width + j, query) < square {
-                    (next, square) = (i * width + j, self.square(i * width + j, query));
+    /// As [`Self::nearest`], of any number: `cells` tells those of a piece of the tree. Likely the nearest, see [`Tree::seek`].
+    pub fn near<C>(
+        &self,
+        query: Vector,
+        tree: &Tree,
+        cells: impl Fn(usize) -> C,
+    ) -> (usize, [f64; 2])
+    where
+        C: Iterator<Item = usize>,
+    {
+        let from = query.map(|x| x as f32);
+        let (mut at, mut least) = (0, f32::INFINITY);
+        tree.seek(query, |piece| {
+            for cell in cells(piece) {
+                let square = self.square(cell, from);
+                if square < least {
+                    (at, least) = (cell, square);
                 }
             }
-            if next == at {
-                break;
-            }
-            at = next;
-        }
-        (at, self.place(at, query))
+            f64::from(least)
+        });
+        (at, self.place(at, from))
     }
 
     fn from(&self, at: usize, query: [f32; 3]) -> [f32; 3] {
@@ -145,6 +147,7 @@ impl Kernel for Nearest<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bounds::Aabb;
 
     #[test]
     fn the_nearest_middle_is_found_on_every_path() {
@@ -163,7 +166,12 @@ mod tests {
         }
         let many = middles(280).unwrap();
         assert!(many.nearest([0.0; 3], Level::detect()).is_none());
-        let (at, from) = many.climb(0, 35, [1.125, 1.125, 6.125]);
-        assert!(at >= 35 && from.iter().all(|x| (0.0..=1.0).contains(x)), "{at} {from:?}");
+        let boxes: Vec<Aabb> = (0..280).map(|k| Aabb { low: place(k), high: place(k) }).collect();
+        let tree = Tree::new(&boxes, 8, 35, Level::detect());
+        for k in 0..280 {
+            let near = place(k).map(|x| x + 0.125);
+            let (found, from) = many.near(near, &tree, |piece| piece..piece + 1);
+            assert_eq!((place(found), from), (place(k), [0.625, 1.0]));
+        }
     }
 }
