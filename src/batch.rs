@@ -142,7 +142,8 @@ pub fn run<W: Memory, R: Record>(
     let wanted = if threads == 0 && total > GROUP { cores() } else { threads.max(1) };
     let threads = wanted.min(total.div_ceil(GROUP)).max(1);
     let tiles = threads * if place.is_some() { ORDERED_TILES } else { TILES };
-    let size = (total / tiles).clamp(GROUP, LARGEST_TILE);
+    // A division takes as long as all else that a call with one query needs here.
+    let size = if total <= GROUP { GROUP } else { (total / tiles).clamp(GROUP, LARGEST_TILE) };
     let progress = Progress::default();
     if threads == 1 {
         with_own::<W, _>(|memory| {

@@ -286,6 +286,7 @@ impl CurveSearch<'_> {
         let (k, start) = self.place_of(u);
         let Some(range) = self.local_range(k) else { return };
         self.iterate_from(k, start, range, proof);
+        self.go_on(proof);
     }
 
     /// The segment of a parameter, and its local parameter.
@@ -304,17 +305,20 @@ impl CurveSearch<'_> {
         let Some((k, start)) = self.near() else { return };
         let Some(range) = self.local_range(k) else { return };
         self.iterate_from(k, start, range, proof);
+        self.go_on(proof);
+    }
+
+    /// Goes on in the neighbours from a foot at the end of a segment that does not settle the query.
+    fn go_on(&self, proof: &mut Proof) {
         if proof.settled.is_none() {
             self.polish(proof);
         }
     }
 
     /// Goes on where lanes have left off, as the search of one query does.
-    fn resume(&self, Left { piece, approach, is_hinted }: Left<f64>, proof: &mut Proof) {
+    fn resume(&self, Left { piece, approach, .. }: Left<f64>, proof: &mut Proof) {
         self.iterate_on(piece, approach, [0.0, 1.0], proof);
-        if !is_hinted && proof.settled.is_none() {
-            self.polish(proof);
-        }
+        self.go_on(proof);
     }
 
     /// A place that is likely near.

@@ -290,6 +290,7 @@ impl SurfaceSearch<'_> {
         let (k, start) = self.place_of(at);
         let Some(range) = self.local_range(k) else { return };
         self.iterate_from(k, start, range, self.options.method, proof);
+        self.go_on(proof);
     }
 
     /// The patch of a parameter pair, and its local parameters.
@@ -310,17 +311,20 @@ impl SurfaceSearch<'_> {
         let Some((k, start)) = self.near() else { return };
         let Some(range) = self.local_range(k) else { return };
         self.iterate_from(k, start, range, Method::Auto, proof);
+        self.go_on(proof);
+    }
+
+    /// Goes on in the neighbours from a foot on a line that does not settle the query.
+    fn go_on(&self, proof: &mut Proof) {
         if proof.settled.is_none() {
             self.cross(proof);
         }
     }
 
     /// Goes on where lanes have left off, as the search of one query does.
-    fn resume(&self, Left { piece, approach, is_hinted }: Left<[f64; 2]>, proof: &mut Proof) {
+    fn resume(&self, Left { piece, approach, .. }: Left<[f64; 2]>, proof: &mut Proof) {
         self.iterate_on(piece, approach, [0.0, 1.0, 0.0, 1.0], Method::Auto, proof);
-        if !is_hinted && proof.settled.is_none() {
-            self.cross(proof);
-        }
+        self.go_on(proof);
     }
 
     /// A place that is likely near.

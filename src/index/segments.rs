@@ -124,7 +124,7 @@ impl CurveIndex {
             aabb.include(add(net.center, [at(0), at(1), at(2)]));
         }
         let (first, last) = knots.domain();
-        let border = ends.map(|u| u == first || u == last || knots.multiplicity(u) >= p);
+        let border = ends.map(|u| u == first || u == last || knots.breaks_at(u));
         let u = Span { ends, balance };
         self.segments.push(Segment { u, center: net.center, radius: net.radius, border });
         aabb.grown(position_steps(p) * net.radius + 8.0 * HALF_ULP)

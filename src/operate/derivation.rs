@@ -155,7 +155,7 @@ impl Sheet {
         let count = height.checked_mul(width).ok_or(Error::OutOfMemory)?;
         let (mut points, degree) = (room(count)?, 2 * knots.degree());
         points.resize(count, None);
-        let open = cut.breaks.iter().map(|&u| knots.multiplicity(u) >= knots.degree()).collect();
+        let open = cut.breaks.iter().map(|&u| knots.breaks_at(u)).collect();
         Ok(Self { points, width, axis, degree, open, torn: (0.0, [0; 2]), longest: 0.0 })
     }
 

@@ -35,7 +35,7 @@ pub fn is_plain(ground: &impl Ground) -> bool {
 }
 
 fn is_break(knots: &Knots, x: f64) -> bool {
-    knots.multiplicity(x) >= knots.degree()
+    knots.breaks_at(x)
 }
 
 /// The place that the iteration from `start` leads to, and its distance.

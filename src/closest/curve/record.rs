@@ -114,7 +114,7 @@ impl IndexedCurve {
         let curve = self.curve();
         let (first, last) = curve.domain();
         let at_seam = u == first || u == last;
-        if at_seam && !index.closed || !at_seam && curve.knots().multiplicity(u) < curve.degree() {
+        if at_seam && !index.closed || !at_seam && !curve.knots().breaks_at(u) {
             return false;
         }
         let after = index.segments.partition_point(|s| s.u.ends[0] < u);

@@ -122,7 +122,7 @@ impl IndexedSurface {
         let [u0, u1, v0, v1] = surface.domain();
         let breaks = |knots: &Knots, x: f64, ends: [f64; 2], closed: bool| {
             let at_end = x == ends[0] || x == ends[1];
-            if at_end { closed } else { knots.multiplicity(x) >= knots.degree() }
+            if at_end { closed } else { knots.breaks_at(x) }
         };
         let in_u = breaks(surface.knots_u(), at[0], [u0, u1], closed[0]);
         let in_v = breaks(surface.knots_v(), at[1], [v0, v1], closed[1]);

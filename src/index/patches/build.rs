@@ -380,7 +380,7 @@ impl Builder<'_> {
 /// Whether the ends of a piece are borders of the domain or C0 knots.
 fn border(knots: &Knots, ends: [f64; 2]) -> [bool; 2] {
     let (first, last) = knots.domain();
-    ends.map(|u| u == first || u == last || knots.multiplicity(u) >= knots.degree())
+    ends.map(|u| u == first || u == last || knots.breaks_at(u))
 }
 
 /// The points onto which collapsed edges are moved: a corner of the surface on each. Edges that meet share theirs.

@@ -40,11 +40,7 @@ impl Raster {
                 let ends = [knots.values()[span], knots.values()[span + 1]];
                 let (first, last) = knots.domain();
                 let broken = |u: f64| {
-                    if u == first || u == last {
-                        closed[k]
-                    } else {
-                        knots.multiplicity(u) >= knots.degree()
-                    }
+                    if u == first || u == last { closed[k] } else { knots.breaks_at(u) }
                 };
                 if ends.into_iter().any(broken) {
                     *change = change.max(CREASED * CHANGE);
