@@ -8,9 +8,9 @@ const RIVALS: usize = 8;
 
 /// Share of the budget that the search for ties may take, iterations from places met in it, and evaluations that count as
 /// a box there.
-const TIE_SHARE: u64 = 24;
+const TIE_SHARE: u64 = 16;
 const TIE_STARTS: usize = 16;
-const EVALUATIONS: u32 = 16;
+const EVALUATIONS: u32 = 32;
 
 /// Where the best foot lies: a piece and its local parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -378,7 +378,7 @@ mod tests {
 
     #[test]
     fn iterations_take_of_the_budget_of_a_walk_for_ties_alone() {
-        let mut proof = Proof::new(1e-9, 240, None);
+        let mut proof = Proof::new(1e-9, 10 * TIE_SHARE, None);
         proof.iterated(1_000_000);
         assert!(proof.spend());
         proof.seek_ties();
