@@ -283,10 +283,18 @@ impl CurveSearch<'_> {
     }
 
     fn start_at(&self, u: f64, proof: &mut Proof) {
-        let (k, start) = self.place_of(u);
+        let (k, start) = self.hinted(u);
         let Some(range) = self.local_range(k) else { return };
         self.iterate_from(k, start, range, proof);
         self.go_on(proof);
+    }
+
+    /// A place that is likely near, in the cell of a hint.
+    fn hinted(&self, u: f64) -> (usize, f64) {
+        let (k, start) = self.place_of(u);
+        let is_free = self.options.method == Method::Auto && self.options.domain.is_none();
+        let reach = self.reach.filter(|_| is_free);
+        (k, reach.map_or(start, |reach| reach.better(k, start, self.query)))
     }
 
     /// The segment of a parameter, and its local parameter.

@@ -183,6 +183,10 @@ pub(super) unsafe fn sized<T: SelfSized>(
             format!("{name}: struct_size is {size}, not {known} or that of an older version");
         return Err(Failure::invalid(text));
     }
+    if size == known {
+        // SAFETY: the caller's struct has as many bytes as T; any bytes are a value of T (trait contract).
+        return Ok(unsafe { pointer.read_unaligned() });
+    }
     // SAFETY: the caller's struct has `size` bytes.
     if (known..size).any(|i| unsafe { bytes.add(i).read() } != 0) {
         let text = format!("{name}: struct_size is {size} and a field after byte {known} is set");
@@ -262,31 +266,34 @@ pub(super) fn check_length(name: &str, length: f64) -> Result<(), Failure> {
 }
 
 fn method(number: u32) -> Result<Method, Failure> {
-    const METHODS: [(fpt_method, Method); 4] = [
-        (fpt_method::FPT_METHOD_AUTO, Method::Auto),
-        (fpt_method::FPT_METHOD_MAF, Method::Maf),
-        (fpt_method::FPT_METHOD_NEWTON, Method::Newton),
-        (fpt_method::FPT_METHOD_OSCULATING, Method::Osculating),
-    ];
-    let found = METHODS.iter().find(|(code, _)| *code as u32 == number);
-    let unknown = || Failure::invalid(format!("method: {number} is not an FPT_METHOD_ value"));
-    found.map(|&(_, method)| method).ok_or_else(unknown)
+    Ok(match number {
+        _ if number == fpt_method::FPT_METHOD_AUTO as u32 => Method::Auto,
+        _ if number == fpt_method::FPT_METHOD_MAF as u32 => Method::Maf,
+        _ if number == fpt_method::FPT_METHOD_NEWTON as u32 => Method::Newton,
+        _ if number == fpt_method::FPT_METHOD_OSCULATING as u32 => Method::Osculating,
+        _ => {
+            return Err(Failure::invalid(format!("method: {number} is not an FPT_METHOD_ value")));
+        }
+    })
 }
 
 fn scope(number: u32) -> Result<Scope, Failure> {
-    const SCOPES: [(fpt_scope, Scope); 2] =
-        [(fpt_scope::FPT_SCOPE_GLOBAL, Scope::Global), (fpt_scope::FPT_SCOPE_LOCAL, Scope::Local)];
-    let found = SCOPES.iter().find(|(code, _)| *code as u32 == number);
-    let unknown = || Failure::invalid(format!("scope: {number} is not an FPT_SCOPE_ value"));
-    found.map(|&(_, scope)| scope).ok_or_else(unknown)
+    Ok(match number {
+        _ if number == fpt_scope::FPT_SCOPE_GLOBAL as u32 => Scope::Global,
+        _ if number == fpt_scope::FPT_SCOPE_LOCAL as u32 => Scope::Local,
+        _ => return Err(Failure::invalid(format!("scope: {number} is not an FPT_SCOPE_ value"))),
+    })
 }
 
 /// The ends that count, as four; `None` when all of them are 0.
 pub(super) fn restriction(ends: &[f64]) -> Result<Option<[f64; 4]>, Failure> {
+    if ends.iter().all(|&end| end == 0.0) {
+        return Ok(None);
+    }
     if let Some(i) = ends.iter().position(|end| !end.is_finite()) {
         return Err(Failure::invalid(format!("domain: domain[{i}] is not finite")));
     }
     let mut domain = [0.0; 4];
     domain[..ends.len()].copy_from_slice(ends);
-    Ok(if ends.iter().all(|&end| end == 0.0) { None } else { Some(domain) })
+    Ok(Some(domain))
 }

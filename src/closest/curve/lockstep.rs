@@ -164,7 +164,7 @@ impl IndexedCurve {
         }
         let search = self.search(index, query, options, Self::floor(index, query));
         let hint = hint.map(|[u]| u).filter(|u| u.is_finite());
-        let place = hint.map(|at| search.place_of(at)).or_else(|| search.near());
+        let place = hint.map(|at| search.hinted(at)).or_else(|| search.near());
         let (piece, at) = place.ok_or(None)?;
         let is_hinted = hint.is_some();
         if !is_inside(at) || norm(search.query) > FAR {

@@ -182,6 +182,16 @@ impl CurveReach {
         }
     }
 
+    /// A place from which to begin in segment `k`, likely nearer to the foot than a hint there.
+    pub fn better(&self, k: usize, hint: f64, query: Vector) -> f64 {
+        let [first, next] = [0, 1].map(|n| self.starts[k + n] as usize);
+        let count = (next - first) as f64;
+        let at = ((hint * count) as usize).min(next - first - 1);
+        let from = hint * count - at as f64;
+        let to = self.middles.better(first + at, query, from);
+        if to == from { hint } else { (at as f64 + to) / count }
+    }
+
     /// A place near a query: a segment and a local parameter, inside but at the ends of the curve. `tree`: that of the segments.
     pub fn start(&self, query: Vector, tree: &Tree) -> (usize, f64) {
         let cells = |k: usize| self.starts[k] as usize..self.starts[k + 1] as usize;

@@ -9,6 +9,9 @@ use crate::tree::Tree;
 /// Most cells that are all looked at; of more, those of near pieces.
 const MOST: usize = 256;
 
+/// How far a foot on the tangent of a cell may be off, in widths of the cell: a hint that is nearer is better.
+const DOUBT: f64 = 0.05;
+
 /// Cells that are looked at together.
 const WIDTH: usize = 16;
 
@@ -96,11 +99,23 @@ impl Middles {
 
     /// The place in a cell from which to begin, in widths from its start.
     fn place(&self, at: usize, query: [f32; 3]) -> [f64; 2] {
+        self.off(at, query)
+            .map(|off| if off.is_nan() { 0.5 } else { f64::from(0.5 + off.clamp(-0.5, 0.5)) })
+    }
+
+    /// How far the foot on the tangent or tangent plane in the middle of a cell is off, in widths of the cell.
+    fn off(&self, at: usize, query: [f32; 3]) -> [f32; 2] {
         let from = self.from(at, query);
-        self.steps[at].map(|step| {
-            let off = step[0] * from[0] + step[1] * from[1] + step[2] * from[2];
-            if off.is_nan() { 0.5 } else { f64::from(0.5 + off.clamp(-0.5, 0.5)) }
-        })
+        self.steps[at].map(|step| step[0] * from[0] + step[1] * from[1] + step[2] * from[2])
+    }
+
+    /// A likely better place than `hint` in a cell of a curve, both in widths from its start: the foot on the tangent in the
+    /// middle of the cell. The hint where that foot is elsewhere, or as near as a tangent tells.
+    pub fn better(&self, at: usize, query: Vector, hint: f64) -> f64 {
+        let [off, _] = self.off(at, query.map(|x| x as f32));
+        let foot = 0.5 + f64::from(off);
+        let is_better = (0.0..=1.0).contains(&foot) && (foot - hint).abs() > DOUBT;
+        if is_better { foot } else { hint }
     }
 
     /// Bytes held.
@@ -163,6 +178,12 @@ mod tests {
                     assert_eq!((place(found), from), (place(k), [0.625, 1.0]));
                 }
             }
+        }
+        let one = middles(1).unwrap();
+        assert_eq!(one.better(0, [0.25, 9.0, 9.0], 0.5), 0.75);
+        assert_eq!(one.better(0, [0.25, 9.0, 9.0], 0.74), 0.74);
+        for elsewhere in [0.75, f64::NAN, f64::INFINITY] {
+            assert_eq!(one.better(0, [elsewhere, 0.0, 0.0], 0.25), 0.25);
         }
         let many = middles(280).unwrap();
         assert!(many.nearest([0.0; 3], Level::detect()).is_none());
