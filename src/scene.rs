@@ -149,7 +149,14 @@ impl Shape {
         }
     }
 
-    /// Tree, frame and numbers of the index, as the walk to its nearest piece needs them.
+    /// At most the distance to a place in the frame of the index, by the cells of a surface; `None` where there are none.
+    fn cells_distance(&self, place: Vector) -> Option<f64> {
+        let Self::Surface(surface) = self else { return None };
+        let index = surface.index(&mut || false).ok()?;
+        index.reach.as_ref()?.distance(place, index.tree.level())
+    }
+
+    /// Tree and frame of the index, as the walk to its nearest piece needs them.
     fn tree(&self) -> Option<(&Tree, &Frame)> {
         match self {
             Self::Curve(curve) => {

@@ -5,11 +5,14 @@
 mod cases;
 
 use cases::{Case, Shape};
-use footpoint::bounds::{Vector, cross, dot, norm, scaled, sub};
-use footpoint::index::{IndexedCurve, IndexedSurface};
+use footpoint::bounds::{Vector, add, cross, dot, norm, scaled, sub};
+use footpoint::index::{IndexedCurve, IndexedSurface, RINGS};
+use footpoint::simd::Level;
 
 /// Places on each surface whose bounds are checked, and places that each is checked against, all over and near by.
 const PLACES: usize = 40;
+/// Queries on the normal of each place, both ways.
+const QUERIES: usize = 6;
 const OTHERS: usize = 250;
 const NEAR: usize = 50;
 
@@ -63,18 +66,19 @@ fn check(
 }
 
 /// Checks some places of a surface; how many of their bounds say something.
-fn look_at(case: &Case, shape: &IndexedSurface, random: &mut Random) -> [usize; 2] {
+fn look_at(case: &Case, shape: &IndexedSurface, random: &mut Random) -> [usize; 3] {
     let name = &case.name;
     let rounding = 1e-14 * (1.0 + case.magnitude / case.diagonal);
     let index = shape.index(&mut || false).unwrap();
-    let Some(reach) = &index.reach else { return [0, 0] };
+    let Some(reach) = &index.reach else { return [0; 3] };
     let rounding = rounding + reach.gap;
     let [u0, u1, v0, v1] = shape.surface().domain();
-    let mut finite = 0;
+    let (mut finite, mut rings) = (0, 0);
     for n in 0..PLACES {
         let (a, b) = (random.next(), random.next());
         // A third of them on the sides.
         let side = (n % 3 == 0).then_some(n / 3 % 4);
+        let on = side;
         let [a, b] = match side {
             Some(0) => [0.0, b],
             Some(1) => [1.0, b],
@@ -100,6 +104,27 @@ fn look_at(case: &Case, shape: &IndexedSurface, random: &mut Random) -> [usize; 
             (here.outward[side], reach.rim(k, at, side))
         });
         finite += usize::from(bounds[0].min(bounds[1]) < f64::INFINITY);
+        // Queries on the normal, the rings that hold all that is not much farther than the place.
+        let level = Level::detect();
+        let mut held = Vec::new();
+        for n in 0..QUERIES * usize::from(reach.near(k, at, 0).is_some()) {
+            let height = random.next() * 0.5f64.powi(2 * (n / 2) as i32);
+            let side = n % 2;
+            let normal = scaled(here.normal, if side == 0 { 1.0 } else { -1.0 });
+            let query = add(here.point, scaled(normal, height));
+            for ring in 0..RINGS {
+                let far = 1.25 * height;
+                if reach.holds((k, at), ring, query, far, level) {
+                    let bound = reach.near(k, at, ring).unwrap()[side];
+                    let rim =
+                        rim.map(|(outward, _)| (outward, reach.near_rim(k, at, on.unwrap(), ring)));
+                    held.push((query, far, normal, bound, rim));
+                }
+            }
+            let least = reach.distance(query, level).unwrap();
+            assert!(least <= height + rounding, "{name}: {least} {height}");
+        }
+        rings += usize::from(held.iter().any(|held| held.3 < f64::INFINITY));
         for m in 0..OTHERS + NEAR {
             let (c, d) = (random.next(), random.next());
             let (c, d) = if m < OTHERS {
@@ -116,26 +141,35 @@ fn look_at(case: &Case, shape: &IndexedSurface, random: &mut Random) -> [usize; 
             if let Some((outward, bound)) = rim {
                 check(name, outward, way, bound, rounding);
             }
+            for &(query, far, normal, bound, rim) in &held {
+                if norm(sub(there, query)) < far - rounding[0] {
+                    check(name, normal, way, bound, rounding);
+                    if let Some((outward, bound)) = rim {
+                        check(name, outward, way, bound, rounding);
+                    }
+                }
+            }
         }
     }
-    [finite, PLACES]
+    [finite, rings, PLACES]
 }
 
 #[test]
 fn no_place_of_the_cases_lies_in_a_ball_that_a_bound_allows() {
     let mut random = Random(0x666f_6f74);
-    let mut sum = [0, 0];
+    let mut sum = [0; 3];
     for folder in cases::folders() {
         let case = cases::read(&folder);
         if let Shape::Surface(shape) = &case.shape {
             let index = shape.index(&mut || false).unwrap();
             if index.patches.len() <= 1000 {
-                let [finite, all] = look_at(&case, shape, &mut random);
-                sum = [sum[0] + finite, sum[1] + all];
+                let found = look_at(&case, shape, &mut random);
+                sum = [0, 1, 2].map(|k| sum[k] + found[k]);
             }
         }
     }
-    assert!(sum[1] == 0 || 4 * sum[0] > sum[1], "{sum:?}");
+    println!("bounds of all, of rings, places: {sum:?}");
+    assert!(sum[2] == 0 || 4 * sum[0].min(sum[1]) > sum[2], "{sum:?}");
 }
 
 /// Checks some places of a curve for vectors across it; how many of their bounds say something.

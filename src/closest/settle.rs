@@ -3,61 +3,107 @@
 use super::certificate::slope_error;
 use super::proof::Site;
 use crate::bezier::Bidegree;
-use crate::bounds::{HALF_ULP, cross, dot, norm, scaled, sub};
-use crate::index::{Across, CurveReach, Reach};
+use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, scaled, sub};
+use crate::index::{Across, CurveReach, RINGS, Reach};
 use crate::jet::{Jet1, Jet2};
 use crate::simd::{Kernel, Lanes, Level, Row, Simd, WIDTH};
 
 /// What must be left of `1 - 2 a K`: less says too little of feet that tie.
 const LEAST_ROOM: f64 = 0.0625;
 
+/// Where the cells of the surface are looked for: the query, how far feet may be that matter, the level.
+pub type Around = (Vector, f64, Level);
+
 /// A lower bound of the distance to the whole surface within `gap` of that of a place with this jet, where there is one (see
-/// [`Reach`]): then nothing else is as near. `position`: how far the point may be off.
+/// [`Reach`]): then nothing else is as near. `position`: how far the point may be off. With `around`, bounds of what is near the
+/// place may do, where boxes show everything else to be farther than what matters.
 pub fn settled(
-    reach: Option<&Reach>,
+    reach: &Reach,
     site: Site,
     jet: &Jet2,
-    position: f64,
+    [position, gap]: [f64; 2],
     degree: Bidegree,
-    gap: f64,
+    around: Option<Around>,
 ) -> Option<f64> {
-    let bound = bound(reach?, site, jet, position, [degree.s, degree.t]);
-    // Not where the iteration has left more than the gap.
-    bound.filter(|b| *b >= norm(jet.d) - gap)
+    let Site { piece: k, at } = site;
+    let Sides::Inside(side) = Sides::of(reach, site) else { return None };
+    let all =
+        Ask { bends: reach.bend(k, at), rim: side.map_or(0.0, |side| reach.rim(k, at, side)) };
+    let near = |ring: usize| {
+        let rim = side.map_or(0.0, |side| reach.near_rim(k, at, side, ring));
+        reach.near(k, at, ring).map(|bends| Ask { bends, rim })
+    };
+    let distance = norm(jet.d);
+    let is_hopeless = |ask: &Ask| ask.is_hopeless(distance + position, side);
+    let around = around.filter(|_| near(0).is_some_and(|ask| !is_hopeless(&ask)));
+    if around.is_none() && is_hopeless(&all) {
+        return None;
+    }
+    let look = Look::new([jet.d, jet.s, jet.t], jet.w[0], position, [degree.s, degree.t]);
+    let bound = |ask: Ask| {
+        let bound = bound_by(&look, jet, position, side, ask, [reach.kink, reach.gap]);
+        // Not where the iteration has left more than the gap.
+        bound.filter(|b| *b >= distance - gap)
+    };
+    bound(all).or_else(|| {
+        let (query, far, level) = around?;
+        // The widest ring that settles leaves least to the boxes.
+        let mut rings = (0..RINGS).rev().map(|ring| (ring, near(ring).and_then(bound)));
+        let (ring, bound) = rings.find(|(_, bound)| bound.is_some())?;
+        bound.filter(|_| reach.holds((k, at), ring, query, far, level))
+    })
 }
 
-/// A lower bound of the distance to the whole surface, if the place of the jet gives one.
+/// The side of the surface on which a place lies, if there is one only.
+enum Sides {
+    Inside(Option<usize>),
+    Corner,
+}
+
+impl Sides {
+    fn of(reach: &Reach, Site { piece, at }: Site) -> Self {
+        let sides = reach.sides(piece, at);
+        let side = (0..4).find(|&side| sides[side]);
+        let is_corner = side.is_some_and(|side| (side + 1..4).any(|other| sides[other]));
+        if is_corner { Self::Corner } else { Self::Inside(side) }
+    }
+}
+
+/// Bounds K of the cell of a place: for queries on the side of the normal and on the other, and for the conormal where it lies on a
+/// side of the surface.
+struct Ask {
+    bends: [f64; 2],
+    rim: f64,
+}
+
+impl Ask {
+    /// Whether a query so far off is not settled: most of those are known by what their side of the surface asks at least.
+    fn is_hopeless(&self, distance: f64, side: Option<usize>) -> bool {
+        let least = self.bends[0].min(self.bends[1]);
+        match side {
+            None => room(distance * least) < LEAST_ROOM,
+            Some(_) => least == f64::INFINITY || self.rim == f64::INFINITY,
+        }
+    }
+}
+
+/// The bound that K gives.
 ///
 /// With `q - f = a N + b o + e` (o the outward conormal, where the place is on a side of the surface, b >= 0):
 /// `|x - q|^2 >= |q - f|^2 + r^2 room - 2 |e| r` for `r = |x - f|` and `room = 1 - 2 (|a| K + b K_o)`, so the square is less
 /// than that of the foot by `|e|^2 / room` at most. A kink adds what it is worth for both parts to `|e|`, and so does a gap.
-fn bound(
-    reach: &Reach,
-    Site { piece: k, at }: Site,
+fn bound_by(
+    look: &Look<f64>,
     jet: &Jet2,
     position: f64,
-    degrees: [usize; 2],
+    side: Option<usize>,
+    ask: Ask,
+    seams: [f64; 2],
 ) -> Option<f64> {
-    let bends = reach.bend(k, at);
-    let sides = reach.sides(k, at);
-    let side = (0..4).find(|&side| sides[side]);
-    // Most places that cannot settle are known by what their side of the surface asks at least.
-    let least = bends[0].min(bends[1]);
-    let hopeless = match side {
-        None => room((norm(jet.d) + position) * least) < LEAST_ROOM,
-        Some(side) => {
-            let corner = (side + 1..4).any(|other| sides[other]);
-            corner || least == f64::INFINITY || reach.rim(k, at, side) == f64::INFINITY
-        }
-    };
-    if hopeless {
-        return None;
-    }
-    let look = Look::new([jet.d, jet.s, jet.t], jet.w[0], position, degrees);
-    let Look { d, slacks, speeds, off, height, .. } = look;
+    let &Look { d, slacks, speeds, off, height, .. } = look;
     let Some(side) = side else {
-        let (asked, lost) = (look.asked(bends, position), look.lost());
-        return closed(closing([d, asked, lost, position], [reach.kink, reach.gap]));
+        let (asked, lost) = (look.asked(ask.bends, position), look.lost());
+        return closed(closing([d, asked, lost, position], seams));
     };
     let tangents = [jet.s, jet.t];
     let (across, along) = (tangents[side / 2], tangents[1 - side / 2]);
@@ -70,8 +116,8 @@ fn bound(
     let other = 1 - side / 2;
     let aside = dot(jet.d, along).abs() / speeds[other] + slacks[other];
     let aside = aside + if out < off { 2.0 * off } else { 0.0 };
-    let asked = (height.abs() + off) * look.bend(bends) + (out + off) * reach.rim(k, at, side);
-    closed(closing([d, asked, aside, position], [reach.kink, reach.gap]))
+    let asked = (height.abs() + off) * look.bend(ask.bends) + (out + off) * ask.rim;
+    closed(closing([d, asked, aside, position], seams))
 }
 
 /// What the jet of a place, or lane by lane of many, says about the query.

@@ -21,7 +21,7 @@ use super::{
 use crate::bounds::{HALF_ULP, Vector, add, dot, norm, scaled, sub};
 use crate::error::Error;
 use crate::index::{IndexedSurface, Reach, Span, SurfaceIndex, position_error, position_steps};
-use crate::jet::{Jet2, place};
+use crate::jet::{BezierPatch, Jet2, place};
 use crate::refine::{Approach, Landing, Method, Trace, foot_on_surface, land_on_surface};
 
 /// Boxes that one patch may take before the others have had their turn: a difficult patch that does not even
@@ -327,6 +327,18 @@ impl SurfaceSearch<'_> {
         self.go_on(proof);
     }
 
+    /// The net of a patch, and the query in its coordinates.
+    fn view(&self, k: usize) -> (BezierPatch<'_>, Vector) {
+        (self.index.net(k), sub(self.query, self.index.patches[k].center))
+    }
+
+    /// How far a point computed of a patch may be off.
+    fn position(&self, k: usize, query: Vector) -> f64 {
+        let (rational, size) = (self.index.rational, norm(self.query));
+        let radius = self.index.patches[k].radius;
+        position_error(self.steps, rational, radius, norm(query), size)
+    }
+
     /// A place that is likely near.
     fn near(&self) -> Option<(usize, [f64; 2])> {
         let near = self.reach.map(|reach| reach.start(self.query, &self.index.tree));
@@ -433,8 +445,8 @@ impl SurfaceSearch<'_> {
         method: Method,
         proof: &mut Proof,
     ) {
-        let view = (self.index.net(k), sub(self.query, self.index.patches[k].center));
-        let Landing { at, mut seen, mut jet, taken } = match &mut proof.trace {
+        let view = self.view(k);
+        let Landing { at, mut seen, mut jet, mut taken } = match &mut proof.trace {
             None => land_on_surface(&view, from, range, method),
             Some(watch) => {
                 let mut tell = |step: u32, s: f64, t: f64, d: f64| {
@@ -445,19 +457,23 @@ impl SurfaceSearch<'_> {
                 Landing { at, seen: at, jet, taken }
             }
         };
-        proof.iterated(taken);
-        let patch = &self.index.patches[k];
-        let (rational, p, q) = (self.index.rational, norm(view.1), norm(self.query));
-        let position = position_error(self.steps, rational, patch.radius, p, q);
+        let position = self.position(k, view.1);
         let (degree, gap) = (self.index.degree, proof.gap);
         let site = |at| Site { piece: k, at };
-        let bound_at = |at, jet: &Jet2| settled(self.reach, site(at), jet, position, degree, gap);
-        let mut bound = bound_at(seen, &jet);
+        let look_at = |here, jet: &Jet2| {
+            // What is on the surface is known to be nearest.
+            let distance = norm(jet.d);
+            let around = (here == at && distance > gap)
+                .then(|| (self.query, distance + proof.window(), self.index.tree.level()));
+            settled(self.reach?, site(here), jet, [position, gap], degree, around)
+        };
+        let mut bound = look_at(seen, &jet);
         if bound.is_none() && seen != at {
             (seen, jet) = (at, view.0.jet(at[0], at[1], view.1));
-            proof.evaluations += 1;
-            bound = bound_at(seen, &jet);
+            taken += 1;
+            bound = look_at(seen, &jet);
         }
+        proof.iterated(taken);
         proof.offer(site(at), jet.d, || jet.flat_direction());
         if seen == at {
             proof.keep(site(at), &jet);
@@ -518,11 +534,9 @@ impl SurfaceSearch<'_> {
     /// False when patience ran out before the patch was closed.
     fn search(&self, k: usize, patience: u64, memory: &mut PatchMemory, proof: &mut Proof) -> bool {
         let Some(range) = self.local_range(k) else { return true };
-        let patch = &self.index.patches[k];
-        let query = sub(self.query, patch.center);
-        let (net, ladder) = (self.index.net(k), &self.index.ladder);
-        let (rational, size) = (self.index.rational, norm(self.query));
-        let position = position_error(self.steps, rational, patch.radius, norm(query), size);
+        let (patch, ladder) = (&self.index.patches[k], &self.index.ladder);
+        let (net, query) = self.view(k);
+        let position = self.position(k, query);
         let is_whole = range == [0.0, 1.0, 0.0, 1.0];
         let tensors = self.index.tensors(k).filter(|_| is_whole);
         let grid = ladder.whole();

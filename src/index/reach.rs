@@ -14,6 +14,9 @@
 //!   parameters, of the second derivatives along N and of the first ones;
 //! - x elsewhere: from boxes around cells and groups of cells, and the cone of the normals.
 //!
+//! Where that is too much, x in the blocks around alone is bounded, and the boxes of the other cells tell whether they matter for a
+//! query (`rings`).
+//!
 //! For f on a side of the surface the same is bounded for its outward conormal. What lies across a crease is at distance zero of
 //! what is beside it: there K is infinite, and the search has to do without. Lines and seams where the surface is smooth but for
 //! rounding are none (`joints`). For a curve, vectors across take the place of the normal (`curve`). `docs/rounding.md`, section 21,
@@ -28,18 +31,23 @@ mod joints;
 mod middles;
 mod oriented;
 mod raster;
+mod rings;
+mod shell;
 
 use super::piece::reserved;
 use crate::bounds::Vector;
 use crate::error::Error;
+use crate::simd::Level;
 use crate::tree::Tree;
 pub use cell::{Cell, push_cells};
 pub use curve::{Across, Chain, CurveReach};
+pub use field::RINGS;
 use field::{Field, STRAIGHT, WIDEST};
 use joints::Joints;
 pub use joints::Net;
 use middles::Middles;
 pub use raster::Raster;
+use rings::Rings;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
@@ -53,6 +61,10 @@ const OFF_LINE: f64 = 1.0 / 64.0;
 /// Bounds are rounded up by this share.
 const MARGIN: f64 = 1.0 + 1e-6;
 
+fn rounded_up(x: f64) -> f32 {
+    ((x * MARGIN) as f32).next_up()
+}
+
 /// The bounds K of all cells.
 #[derive(Clone, Debug, Default)]
 pub struct Reach {
@@ -62,6 +74,7 @@ pub struct Reach {
     bends: Vec<[f32; 2]>,
     /// Of the cells along the sides of the surface: for their outward conormals.
     rims: [Vec<f32>; 4],
+    rings: Rings,
     middles: Middles,
     /// Whether the surface goes on smoothly beyond its sides in u, in v.
     seamless: [bool; 2],
@@ -106,7 +119,7 @@ impl Reach {
                 for (n, bend) in tile.into_iter().flatten().enumerate() {
                     let at = k * TILE + n;
                     let found = field.bend([at / columns, at % columns]);
-                    *bend = found.map(|x| ((x * MARGIN) as f32).next_up());
+                    *bend = found.map(rounded_up);
                 }
             }
         };
@@ -121,24 +134,36 @@ impl Reach {
         if stop.load(Ordering::Relaxed) {
             return Err(Error::Cancelled);
         }
+        // Beyond a seam that is none there is no side.
+        let seamless = joints.smooth.each_ref().map(|list| list[0]);
         let mut rims: [Vec<f32>; 4] = Default::default();
         for (side, list) in rims.iter_mut().enumerate() {
-            let (k, size) = (side / 2, field.size);
-            *list = reserved(size[1 - k])?;
-            for n in 0..size[1 - k] {
-                let mut place = [n; 2];
-                place[k] = if side % 2 == 0 { 0 } else { size[k] - 1 };
-                // Beyond a seam that is none there is no side.
-                let bound =
-                    if joints.smooth[k][0] { f64::INFINITY } else { field.rim(place, side) };
-                list.push(((bound * MARGIN) as f32).next_up());
-            }
+            let count = field.size[1 - side / 2];
+            *list = reserved(count)?;
+            list.extend((0..count).map(|n| {
+                let bound = if seamless[side / 2] {
+                    f64::INFINITY
+                } else {
+                    field.rim(field.on_side(n, side), side)
+                };
+                rounded_up(bound)
+            }));
         }
+        let rings = Rings::new(&field, seamless)?;
         let columns = raster.starts[1].len() - 1;
         // So many lines there may be in a block, and a derivative may be twice the mean; see `Field::near`.
         let kink = joints.kink * 2.0 * (2 * WIDEST) as f64 / STRAIGHT;
-        let seamless = joints.smooth.each_ref().map(|list| list[0]);
-        Ok(Self { raster, columns, bends, rims, middles, seamless, kink, gap: 4.0 * joints.gap })
+        Ok(Self {
+            raster,
+            columns,
+            bends,
+            rims,
+            rings,
+            middles,
+            seamless,
+            kink,
+            gap: 4.0 * joints.gap,
+        })
     }
 
     /// The row and column of a patch.
@@ -169,6 +194,35 @@ impl Reach {
     pub fn rim(&self, k: usize, at: [f64; 2], side: usize) -> f64 {
         let cell = self.raster.cell(self.patch(k), at);
         f64::from(self.rims[side][cell[1 - side / 2]])
+    }
+
+    /// As [`Self::bend`] against the cells in a ring around that of the place, and those within; `None` where there are none.
+    pub fn near(&self, k: usize, at: [f64; 2], ring: usize) -> Option<[f64; 2]> {
+        let is_there = ring < RINGS && !self.rings.is_empty();
+        is_there.then(|| self.rings.bend(self.raster.cell(self.patch(k), at), ring))
+    }
+
+    /// As [`Self::rim`], where [`Self::near`] says something.
+    pub fn near_rim(&self, k: usize, at: [f64; 2], side: usize, ring: usize) -> f64 {
+        self.rings.rim(self.raster.cell(self.patch(k), at), side, ring)
+    }
+
+    /// Whether everything nearer to a query than `reach` lies in a ring around the cell of a place and those within, where
+    /// [`Self::near`] says something.
+    pub fn holds(
+        &self,
+        (k, at): (usize, [f64; 2]),
+        ring: usize,
+        query: Vector,
+        reach: f64,
+        level: Level,
+    ) -> bool {
+        self.rings.hold(self.raster.cell(self.patch(k), at), ring, query, reach, level)
+    }
+
+    /// At most the distance from a query to the surface; `None` where the boxes of the pieces tell more.
+    pub fn distance(&self, query: Vector, level: Level) -> Option<f64> {
+        (!self.rings.is_empty()).then(|| self.rings.distance(query, level))
     }
 
     /// A place near a query: a patch and local parameters, inside but on the sides of the surface. `tree`: that of the patches.
@@ -204,6 +258,7 @@ impl Reach {
     pub fn memory(&self) -> usize {
         self.raster.memory()
             + self.middles.memory()
+            + self.rings.memory()
             + self.bends.capacity() * size_of::<[f32; 2]>()
             + self.rims.iter().map(|list| list.capacity() * size_of::<f32>()).sum::<usize>()
     }

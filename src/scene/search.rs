@@ -30,7 +30,7 @@ pub struct SceneFoot {
 #[derive(Clone, Debug, Default)]
 pub struct SceneWorkspace {
     queue: Queue,
-    /// Members whose nearest piece is known, and its key.
+    /// Members that wait for their turn, and their keys.
     ready: Vec<(f64, u32)>,
     member: Workspace,
 }
@@ -144,8 +144,8 @@ struct Search<'a> {
 impl Search<'_> {
     /// Asks every member that may hold the foot or a tie, but `asked`, who was first.
     ///
-    /// Before there is a foot, members wait for their turn with the distance of their nearest piece, not of their box:
-    /// where boxes overlap that tells which of them to ask first. Afterwards the foot itself tells more.
+    /// Members wait for their turn with the distance of the nearest box around a part of them, not of their own: where those
+    /// overlap that tells which of them to ask first, and which not at all.
     fn walk(&mut self, asked: Option<u32>) {
         let (scene, scale) = (self.scene, self.scene.frame.scale);
         let place = scene.frame.enter(self.query);
@@ -175,31 +175,32 @@ impl Search<'_> {
             if asked == Some(member) {
                 continue;
             }
-            if self.contest.best().is_some() {
-                self.ask(member, None);
-            } else {
-                let key = self.piece_key(member).max(next.key);
+            let key = self.key(member).max(next.key);
+            if self.contest.best().is_none() {
                 self.workspace.ready.push((key, member));
+            } else if key <= limit {
+                self.ask(member, None);
             }
         }
     }
 
-    /// The place in the list of the member whose nearest piece is nearest, by number among equals.
+    /// The place in the list of the member with the least key, by number among equals.
     fn nearest_ready(&self) -> Option<usize> {
         let ready = &self.workspace.ready;
         (0..ready.len()).reduce(|a, b| if ready[b] < ready[a] { b } else { a })
     }
 
-    /// Squared distance to the nearest piece of a member, at most, in the frame of the scene.
-    fn piece_key(&mut self, member: u32) -> f64 {
+    /// The square of at most the distance to a member, in the frame of the scene: of boxes around its parts.
+    fn key(&mut self, member: u32) -> f64 {
         let Member { shape, placement } = &self.scene.members[member as usize];
         let Some((tree, frame)) = shape.tree() else { return 0.0 };
         let place = frame.enter(placement.enter(self.query));
-        let Some((key, _)) = nearest_leaf(tree, place, self.workspace.member.queue()) else {
-            return 0.0;
-        };
-        let bound = (key.sqrt() * (1.0 - 8.0 * HALF_ULP) - tree_slack(place)) / frame.scale;
-        let bound = placement.bound(bound, placement.offset(self.query)).max(0.0);
+        let bound = shape.cells_distance(place).or_else(|| {
+            let (key, _) = nearest_leaf(tree, place, self.workspace.member.queue())?;
+            Some(key.sqrt() * (1.0 - 8.0 * HALF_ULP) - tree_slack(place))
+        });
+        let Some(bound) = bound else { return 0.0 };
+        let bound = placement.bound(bound / frame.scale, placement.offset(self.query)).max(0.0);
         let bound = bound * self.scene.frame.scale;
         bound * bound * (1.0 - 8.0 * HALF_ULP)
     }

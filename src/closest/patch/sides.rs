@@ -115,10 +115,11 @@ impl Walk<'_, '_, '_> {
 
     /// See [`settled`].
     pub(super) fn settle(&mut self, site: Site, jet: &Jet2) {
-        let (reach, position, degree) =
-            (self.sheet.reach, self.sheet.position, self.sheet.net.degree);
+        let Some(reach) = self.sheet.reach else { return };
+        let (position, degree) = (self.sheet.position, self.sheet.net.degree);
         let gap = self.proof.gap;
-        self.proof.settle(site, || settled(reach, site, jet, position, degree, gap));
+        let found = || settled(reach, site, jet, [position, gap], degree, None);
+        self.proof.settle(site, found);
     }
 
     /// Index of product coefficient `i` along side `k`.

@@ -7,6 +7,9 @@ use crate::bounds::{Vector, add, cross, dot, norm, scaled, sub};
 use crate::index::patch::Patch;
 use crate::index::piece::{position_error, position_steps};
 
+/// Sizes of tangents whose squares keep their digits.
+const PLAIN: std::ops::Range<f64> = 1e-100..1e100;
+
 /// Second derivatives in a cell: least and greatest part along the cell's normal, greatest size.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Bend {
@@ -244,7 +247,9 @@ fn shape(slopes: &Slopes, width: [f64; 2], error: f64) -> Option<Shape> {
     let normal = cross(tangents[0], tangents[1]);
     let normal = scaled(normal, 1.0 / norm(normal));
     let sine = relative(&tangents, &off) / angle_factor(&tangents);
-    if sine.is_nan() || sine >= 0.7 || !normal.iter().all(|x| x.is_finite()) {
+    // Squares of the tangents are divided by.
+    let is_plain = tangents.iter().all(|x| PLAIN.contains(&norm(*x)));
+    if !is_plain || sine.is_nan() || sine >= 0.7 || !normal.iter().all(|x| x.is_finite()) {
         return None;
     }
     // The chord of an angle with that sine.

@@ -5,6 +5,7 @@ use super::cell::{Cell, Shape, angle_factor, relative};
 use super::groups::{Groups, View};
 use super::joints::Joints;
 use super::middles::Middle;
+use super::oriented::Oriented;
 use super::raster::Raster;
 use crate::bounds::{Vector, add, norm, scaled, sub};
 use crate::error::Error;
@@ -13,6 +14,8 @@ use crate::index::piece::reserved;
 /// Cells to each side that count as near, and most of them where cells are long and thin.
 const NEAR: usize = 2;
 pub const WIDEST: usize = 12;
+/// Rings around a cell: itself, those beside it, all that are near.
+pub const RINGS: usize = 3;
 /// Least of `|x - f|`, relative to what the tangents say, up to which cells count as near where there are kinks.
 pub const STRAIGHT: f64 = 0.25;
 /// Bounds less than this are of no use: with it, queries are settled from five diagonals away.
@@ -131,19 +134,86 @@ impl Field {
         bend
     }
 
+    /// The boxes of all cells, row by row.
+    pub fn boxes(&self) -> impl ExactSizeIterator<Item = &Oriented> {
+        self.cells.iter().map(|cell| &cell.bounds)
+    }
+
+    /// Cells to each side that a ring has, at most.
+    pub fn wide(ring: usize) -> usize {
+        [0, 1, WIDEST][ring]
+    }
+
+    /// How many rows before and after a cell, columns before and after it are near.
+    pub fn around(&self, place: [usize; 2]) -> [[usize; 2]; 2] {
+        let place = place.map(|x| x as isize);
+        let block = self.block(place, self.cell(place));
+        [0, 1].map(|k| [place[k] - block[k][0], block[k][1] - place[k]].map(|n| n as usize))
+    }
+
+    /// The cell at place `n` along a side of the surface.
+    pub fn on_side(&self, n: usize, side: usize) -> [usize; 2] {
+        let mut place = [n; 2];
+        place[side / 2] = if side.is_multiple_of(2) { 0 } else { self.size[side / 2] - 1 };
+        place
+    }
+
+    /// The bounds of a cell against the cells of each ring and those within, as [`Self::bend`].
+    pub fn rings(&self, place: [usize; 2]) -> [[f64; 2]; RINGS] {
+        let place = place.map(|x| x as isize);
+        let cell = self.cell(place);
+        let Some(shape) = &cell.shape else { return [[f64::INFINITY; 2]; RINGS] };
+        self.by_rings(place, cell, [0.0; 2], |other| {
+            self.near(shape, place, other).unwrap_or([f64::INFINITY; 2])
+        })
+    }
+
+    /// As [`Self::rings`], for the outward conormal of a side.
+    pub fn rim_rings(&self, place: [usize; 2], side: usize) -> [f64; RINGS] {
+        let place = place.map(|x| x as isize);
+        let cell = self.cell(place);
+        let rim = cell.shape.as_ref().and_then(|shape| Rim::new(shape, side));
+        let Some(Rim { shape, fall, .. }) = rim else { return [f64::INFINITY; RINGS] };
+        let rings = self.by_rings(place, cell, [0.0; 1], |other| {
+            [self.near_rim(shape, place, other, side / 2, fall).unwrap_or(f64::INFINITY)]
+        });
+        rings.map(|[bound]| bound)
+    }
+
+    /// The greatest of what the cells of each ring and those within ask for.
+    fn by_rings<const N: usize>(
+        &self,
+        place: [isize; 2],
+        cell: &Cell,
+        mut most: [f64; N],
+        near: impl Fn([isize; 2]) -> [f64; N],
+    ) -> [[f64; N]; RINGS] {
+        let block = self.block(place, cell);
+        let mut inner = 0;
+        std::array::from_fn(|ring| {
+            let wide = Self::wide(ring) as isize;
+            for i in block[0][0].max(place[0] - wide)..=block[0][1].min(place[0] + wide) {
+                for j in block[1][0].max(place[1] - wide)..=block[1][1].min(place[1] + wide) {
+                    let apart = (i - place[0]).abs().max((j - place[1]).abs());
+                    let is_new = ring == 0 || apart > inner;
+                    if is_new && most.iter().any(|x| *x < f64::INFINITY) {
+                        let asked = near([i, j]);
+                        most = std::array::from_fn(|k| most[k].max(asked[k]));
+                    }
+                }
+            }
+            inner = wide;
+            most
+        })
+    }
+
     /// The bound for the outward conormal of a side in place of the normal, for places on that side of a cell.
     pub fn rim(&self, place: [usize; 2], side: usize) -> f64 {
         let place = place.map(|x| x as isize);
         let cell = self.cell(place);
-        let Some(shape) = &cell.shape else { return f64::INFINITY };
-        let (axis, speed) = shape.conormal(side);
-        let k = side / 2;
-        let [across, along] = [k, 1 - k].map(|d| norm(shape.tangents[d]));
-        // The conormal is perpendicular to the normal and to the tangent of the side.
-        let turn = shape.off[1 - k] / (along - 0.5 * shape.off[1 - k]);
-        let fall = speed - shape.off[k] - turn * (across + shape.off[k]);
-        let cone = (turn + shape.cone) * MARGIN;
-        let (from, view) = (&cell.bounds, View { axis, cone, depth: -shape.rims[side] });
+        let rim = cell.shape.as_ref().and_then(|shape| Rim::new(shape, side));
+        let Some(Rim { shape, fall, view }) = rim else { return f64::INFINITY };
+        let (from, k) = (&cell.bounds, side / 2);
         let block = self.block(place, cell);
         let mut bend = LEAST;
         for i in block[0][0]..=block[0][1] {
@@ -156,10 +226,6 @@ impl Field {
                 let near = self.near_rim(shape, place, [i, j], k, fall).unwrap_or(f64::INFINITY);
                 bend = bend.max(near.min(far));
             }
-        }
-        // NaN where the tangents are lost in their error.
-        if !(fall > 0.0 && turn >= 0.0) {
-            return f64::INFINITY;
         }
         let mut bend = [bend, f64::INFINITY];
         if bend[0] < f64::INFINITY {
@@ -275,5 +341,28 @@ impl Field {
             from + (last - first) as isize <= high - low
         };
         move |rows, columns| within(0, rows) && within(1, columns)
+    }
+}
+
+/// A side of a cell of the surface.
+struct Rim<'a> {
+    shape: &'a Shape,
+    /// How fast the surface falls along the outward conormal, going inward, at least.
+    fall: f64,
+    view: View,
+}
+
+impl<'a> Rim<'a> {
+    /// `None` where the tangents are lost in their error.
+    fn new(shape: &'a Shape, side: usize) -> Option<Self> {
+        let (axis, speed) = shape.conormal(side);
+        let k = side / 2;
+        let [across, along] = [k, 1 - k].map(|d| norm(shape.tangents[d]));
+        // The conormal is perpendicular to the normal and to the tangent of the side.
+        let turn = shape.off[1 - k] / (along - 0.5 * shape.off[1 - k]);
+        let fall = speed - shape.off[k] - turn * (across + shape.off[k]);
+        let cone = (turn + shape.cone) * MARGIN;
+        let view = View { axis, cone, depth: -shape.rims[side] };
+        (fall > 0.0 && turn >= 0.0).then_some(Self { shape, fall, view })
     }
 }

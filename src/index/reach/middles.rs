@@ -52,7 +52,7 @@ impl Middles {
         Ok(Self { blocks, steps })
     }
 
-    /// The nearest one, the first of equals, and the place in it from which to begin, in widths from its start; `None` where
+    /// The nearest one, but for the last digits, and the place in it from which to begin, in widths from its start; `None` where
     /// there are too many.
     pub fn nearest(&self, query: Vector, level: Level) -> Option<(usize, [f64; 2])> {
         if self.steps.is_empty() || self.steps.len() > MOST {
@@ -125,6 +125,9 @@ impl Middles {
     }
 }
 
+/// Bits of the number of a block.
+const BLOCK: u32 = (MOST / WIDTH - 1) as u32;
+
 struct Nearest<'a> {
     blocks: &'a [Block],
     query: [f32; 3],
@@ -135,7 +138,8 @@ impl Kernel for Nearest<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, _: S) -> usize {
-        let (mut least, mut place) = ([f32::INFINITY; WIDTH], [0u32; WIDTH]);
+        // Squares as their bits, which have the order of positive numbers, but for the last few: those number the blocks.
+        let mut least = [u32::MAX; WIDTH];
         for (k, block) in self.blocks.iter().enumerate() {
             for n in 0..WIDTH {
                 let [x, y, z] = [
@@ -144,18 +148,17 @@ impl Kernel for Nearest<'_> {
                     block[2][n] - self.query[2],
                 ];
                 let square = x * x + y * y + z * z;
-                let nearer = square < least[n];
-                least[n] = if nearer { square } else { least[n] };
-                place[n] = if nearer { k as u32 } else { place[n] };
+                let key = (square.to_bits() & !BLOCK) | k as u32;
+                least[n] = if key < least[n] { key } else { least[n] };
             }
         }
         let mut best = 0;
         for n in 1..WIDTH {
-            if least[n] < least[best] || (least[n] == least[best] && place[n] < place[best]) {
+            if least[n] < least[best] {
                 best = n;
             }
         }
-        place[best] as usize * WIDTH + best
+        (least[best] & BLOCK) as usize * WIDTH + best
     }
 }
 

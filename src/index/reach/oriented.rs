@@ -7,7 +7,7 @@ use crate::bounds::{Vector, add, dot, norm, scaled, sub};
 #[derive(Clone, Copy, Debug)]
 pub struct Oriented {
     pub center: Vector,
-    axes: [Vector; 3],
+    pub axes: [Vector; 3],
     pub half: [f64; 3],
     /// Of the ball around it.
     pub radius: f64,
