@@ -149,11 +149,17 @@ impl Shape {
         }
     }
 
-    /// At most the distance to a place in the frame of the index, by the cells of a surface; `None` where there are none.
-    fn cells_distance(&self, place: Vector) -> Option<f64> {
+    /// At most the distance to a place in the frame of the index, by boxes around the cells of a surface, or around many of them
+    /// each (`roughly`); `None` where there are none.
+    fn cells_distance(&self, place: Vector, roughly: bool) -> Option<f64> {
         let Self::Surface(surface) = self else { return None };
         let index = surface.index(&mut || false).ok()?;
-        index.reach.as_ref()?.distance(place, index.tree.level())
+        let (reach, level) = (index.reach.as_ref()?, index.tree.level());
+        if roughly {
+            Some(reach.rough_distance(place, level))
+        } else {
+            reach.distance(place, level)
+        }
     }
 
     /// Tree and frame of the index, as the walk to its nearest piece needs them.

@@ -48,6 +48,7 @@ pub use joints::Net;
 use middles::Middles;
 pub use raster::Raster;
 use rings::Rings;
+use shell::Shell;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
@@ -75,6 +76,8 @@ pub struct Reach {
     /// Of the cells along the sides of the surface: for their outward conormals.
     rims: [Vec<f32>; 4],
     rings: Rings,
+    /// Boxes around groups of cells.
+    around: Shell,
     middles: Middles,
     /// Whether the surface goes on smoothly beyond its sides in u, in v.
     seamless: [bool; 2],
@@ -150,6 +153,7 @@ impl Reach {
             }));
         }
         let rings = Rings::new(&field, seamless)?;
+        let around = Shell::new(field.few_boxes(shell::WIDTH).iter())?;
         let columns = raster.starts[1].len() - 1;
         // So many lines there may be in a block, and a derivative may be twice the mean; see `Field::near`.
         let kink = joints.kink * 2.0 * (2 * WIDEST) as f64 / STRAIGHT;
@@ -159,6 +163,7 @@ impl Reach {
             bends,
             rims,
             rings,
+            around,
             middles,
             seamless,
             kink,
@@ -220,9 +225,14 @@ impl Reach {
         self.rings.hold(self.raster.cell(self.patch(k), at), ring, query, reach, level)
     }
 
-    /// At most the distance from a query to the surface; `None` where the boxes of the pieces tell more.
+    /// At most the distance from a query to the surface, by boxes around all cells; `None` where there are too many.
     pub fn distance(&self, query: Vector, level: Level) -> Option<f64> {
         (!self.rings.is_empty()).then(|| self.rings.distance(query, level))
+    }
+
+    /// As [`Self::distance`], by some boxes around many cells each: less, in less time.
+    pub fn rough_distance(&self, query: Vector, level: Level) -> f64 {
+        self.around.distance(query, level)
     }
 
     /// A place near a query: a patch and local parameters, inside but on the sides of the surface. `tree`: that of the patches.
@@ -259,6 +269,7 @@ impl Reach {
         self.raster.memory()
             + self.middles.memory()
             + self.rings.memory()
+            + self.around.memory()
             + self.bends.capacity() * size_of::<[f32; 2]>()
             + self.rims.iter().map(|list| list.capacity() * size_of::<f32>()).sum::<usize>()
     }

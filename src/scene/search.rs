@@ -26,12 +26,22 @@ pub struct SceneFoot {
     pub member: u32,
 }
 
+/// A member that waits for its turn.
+#[derive(Clone, Copy, Debug)]
+struct Waiting {
+    /// Square of at most its distance.
+    key: f64,
+    member: u32,
+    /// Whether a look at its cells would tell more.
+    is_rough: bool,
+}
+
 /// Reusable memory of one thread. No query allocates once it has grown to the scene.
 #[derive(Clone, Debug, Default)]
 pub struct SceneWorkspace {
     queue: Queue,
     /// Members that wait for their turn, and their keys.
-    ready: Vec<(f64, u32)>,
+    ready: Vec<Waiting>,
     member: Workspace,
 }
 
@@ -155,13 +165,19 @@ impl Search<'_> {
         loop {
             let limit = tree_limit(self.contest.reach() * scale, slack);
             let in_tree = self.workspace.queue.nearest().unwrap_or(f64::INFINITY);
-            if let Some(k) = self.nearest_ready().filter(|&k| self.workspace.ready[k].0 <= in_tree)
+            if let Some(k) =
+                self.nearest_ready().filter(|&k| self.workspace.ready[k].key <= in_tree)
             {
-                let (key, member) = self.workspace.ready.swap_remove(k);
+                let Waiting { key, member, is_rough } = self.workspace.ready.swap_remove(k);
                 if key > limit {
                     return;
                 }
-                self.ask(member, None);
+                if is_rough {
+                    let key = self.key(member).max(key);
+                    self.workspace.ready.push(Waiting { key, member, is_rough: false });
+                } else {
+                    self.ask(member, None);
+                }
                 continue;
             }
             let Some(next) = self.workspace.queue.pop().filter(|next| next.key <= limit) else {
@@ -175,11 +191,9 @@ impl Search<'_> {
             if asked == Some(member) {
                 continue;
             }
-            let key = self.key(member).max(next.key);
-            if self.contest.best().is_none() {
-                self.workspace.ready.push((key, member));
-            } else if key <= limit {
-                self.ask(member, None);
+            let key = self.rough_key(member).max(next.key);
+            if key <= limit {
+                self.workspace.ready.push(Waiting { key, member, is_rough: true });
             }
         }
     }
@@ -187,19 +201,39 @@ impl Search<'_> {
     /// The place in the list of the member with the least key, by number among equals.
     fn nearest_ready(&self) -> Option<usize> {
         let ready = &self.workspace.ready;
-        (0..ready.len()).reduce(|a, b| if ready[b] < ready[a] { b } else { a })
+        let rank = |k: usize| (ready[k].key, ready[k].member);
+        (0..ready.len()).reduce(|a, b| if rank(b) < rank(a) { b } else { a })
     }
 
     /// The square of at most the distance to a member, in the frame of the scene: of boxes around its parts.
     fn key(&mut self, member: u32) -> f64 {
-        let Member { shape, placement } = &self.scene.members[member as usize];
-        let Some((tree, frame)) = shape.tree() else { return 0.0 };
-        let place = frame.enter(placement.enter(self.query));
-        let bound = shape.cells_distance(place).or_else(|| {
-            let (key, _) = nearest_leaf(tree, place, self.workspace.member.queue())?;
+        let (place, Member { shape, .. }) =
+            (self.place(member), &self.scene.members[member as usize]);
+        let bound = shape.cells_distance(place, false).or_else(|| {
+            let (key, _) = nearest_leaf(shape.tree()?.0, place, self.workspace.member.queue())?;
             Some(key.sqrt() * (1.0 - 8.0 * HALF_ULP) - tree_slack(place))
         });
-        let Some(bound) = bound else { return 0.0 };
+        self.square(member, bound)
+    }
+
+    /// As [`Self::key`], of few boxes.
+    fn rough_key(&self, member: u32) -> f64 {
+        let bound =
+            self.scene.members[member as usize].shape.cells_distance(self.place(member), true);
+        self.square(member, bound)
+    }
+
+    /// The query in the frame of a member's index.
+    fn place(&self, member: u32) -> Vector {
+        let Member { shape, placement } = &self.scene.members[member as usize];
+        let place = placement.enter(self.query);
+        shape.tree().map_or(place, |(_, frame)| frame.enter(place))
+    }
+
+    /// The square of a distance that a member's index bounds, in the frame of the scene.
+    fn square(&self, member: u32, bound: Option<f64>) -> f64 {
+        let Member { shape, placement } = &self.scene.members[member as usize];
+        let (Some(bound), Some((_, frame))) = (bound, shape.tree()) else { return 0.0 };
         let bound = placement.bound(bound / frame.scale, placement.offset(self.query)).max(0.0);
         let bound = bound * self.scene.frame.scale;
         bound * bound * (1.0 - 8.0 * HALF_ULP)

@@ -139,6 +139,11 @@ impl Field {
         self.cells.iter().map(|cell| &cell.bounds)
     }
 
+    /// Some boxes around groups of cells, `most` at most, in which all lie.
+    pub fn few_boxes(&self, most: usize) -> &[Oriented] {
+        self.groups.few(most)
+    }
+
     /// Cells to each side that a ring has, at most.
     pub fn wide(ring: usize) -> usize {
         [0, 1, WIDEST][ring]

@@ -51,6 +51,12 @@ impl Groups {
         Ok(Self { layers })
     }
 
+    /// As many boxes around everything as there are at most so many.
+    pub fn few(&self, most: usize) -> &[Oriented] {
+        let layer = self.layers.iter().find(|layer| layer.boxes.len() <= most);
+        layer.map_or(&[], |layer| &layer.boxes)
+    }
+
     /// Raises the bounds of the cell in box `from`, two for each of its views, to what all cells ask but those of the groups
     /// (first and last row, first and last column) that are `covered` already.
     pub fn far(

@@ -9,8 +9,8 @@ use crate::simd::{Kernel, Level, Simd};
 /// Most cells that are all looked at.
 pub const MOST: usize = 256;
 
-/// Cells that are looked at together.
-const WIDTH: usize = 16;
+/// Boxes that are looked at together.
+pub const WIDTH: usize = 16;
 
 /// What rounding to single precision takes of a distance, relative to the query's and the shape's size: 64 of its units.
 const ROUNDING: f64 = 4e-6;
