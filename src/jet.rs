@@ -108,11 +108,12 @@ impl Jet2 {
         if area <= 1e-12 * e * g || (a * c - b * b).abs() > FLAT * area {
             return None;
         }
-        let v = if a * g > c * e { [-b, a] } else { [c, -b] };
+        let v = if a.abs() * g > c.abs() * e { [-b, a] } else { [c, -b] };
         let size = v[0].abs().max(v[1].abs());
         let scale = a.abs().max(b.abs()).max(c.abs());
         // All zero but for rounding: every direction is flat.
-        Some(if scale <= FLAT * (e + g) { [1.0, 0.0] } else { v.map(|x| x / size) })
+        let within = |x: f64| if x.abs() <= FLAT * size { 0.0 } else { x / size };
+        Some(if scale <= FLAT * (e + g) { [1.0, 0.0] } else { v.map(within) })
     }
 
     /// First fundamental form: E, F, G.

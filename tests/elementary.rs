@@ -96,10 +96,12 @@ fn sheet(random: &mut Random, motion: &Motion) -> (&'static str, Surface, Distan
 fn asked(random: &mut Random, near: Vector) -> Vector {
     let reach = [2.5, 2.5, 1e-3, 1e-9, 0.0, 300.0][random.whole(0, 5)];
     let p = random.point(reach);
-    match random.whole(0, 9) {
+    let beside = 10.0f64.powf(random.between(-17.0, -1.0));
+    match random.whole(0, 10) {
         0 => [0.0, 0.0, p[2]],
         1 => [1e-4 * p[0], 1e-7 * p[1], p[2]],
-        2..=4 => p,
+        2 => [beside * random.between(-1.0, 1.0), beside * random.between(-1.0, 1.0), p[2]],
+        3..=5 => p,
         _ => [0, 1, 2].map(|c| near[c] + p[c]),
     }
 }
@@ -123,15 +125,21 @@ fn agree(
     assert!(ours.lower_bound <= general.distance + floor, "{} {ours:?} {general:?}", context());
     assert!(general.lower_bound <= ours.distance + floor, "{} {ours:?} {general:?}", context());
     // A search may end up to its gap above the least distance; closed forms do not, but that what is beside a tip within the
-    // accuracy is the tip.
+    // accuracy is the tip, and beside a tip a search of few steps may answer a query that is on the shape but for the accuracy.
     let is_closed = ours.iterations <= STEPS;
-    let is_exact = is_closed && ours.flags & (TIES | flag::COLLAPSED) == 0;
+    let is_exact = is_closed && ours.flags & (TIES | flag::COLLAPSED) == 0 && ours.distance > gap;
     let over = if is_exact { 4.0 * floor } else { gap };
     assert!(ours.distance <= general.distance + over, "{} {ours:?} {general:?}", context());
     assert!(general.distance <= ours.distance + gap, "{} {ours:?} {general:?}", context());
     // The general search may leave open what closed forms decide, never the other way round. Where these do not decide, the
     // search of an elementary shape knows less than that of others, of which feet are known to be alone.
     let more = ours.flags & flag::TIE & !general.flags;
+    if general.flags & flag::TIE & !ours.flags != 0 && is_closed {
+        eprintln!("LESS {} {ours:?} {general:?}", context());
+    }
+    if more != 0 && is_closed {
+        eprintln!("MORE {} {ours:?} {general:?}", context());
+    }
     // In a continuum but for the accuracy a search may find the one least place.
     let is_level = ours.flags & flag::CONTINUUM != 0;
     assert!(more == 0 || !is_closed || is_level, "{} {ours:?} {general:?}", context());
@@ -158,6 +166,7 @@ fn elementary_surfaces_in_any_form_are_recognised_and_answered_like_any_other() 
     let mut random = Random(4);
     let mut closed_forms = 0;
     let (mut asked_in_all, mut missed) = (0, 0);
+    let (mut beside_axes, mut closed_there) = (0, 0);
     let rounds = 1500;
     for round in 0..rounds {
         let scale = [1.0, 1.0, 1e-6, 1e6][random.whole(0, 3)];
@@ -192,10 +201,15 @@ fn elementary_surfaces_in_any_form_are_recognised_and_answered_like_any_other() 
             assert!(a.distance >= least * (1.0 - 1e-13) - floor, "{} {a:?} {least}", context());
             closed_forms += usize::from(a.iterations <= 2);
             asked_in_all += 1;
+            if name != "plane" && length(p[0], p[1]) < 1e-3 {
+                beside_axes += 1;
+                closed_there += usize::from(a.iterations <= STEPS);
+            }
         }
     }
     assert!(missed * 200 <= rounds, "{missed}");
     assert!(2 * closed_forms > asked_in_all, "{closed_forms} of {asked_in_all}");
+    assert!(3 * closed_there > 2 * beside_axes, "{closed_there} of {beside_axes}");
 }
 
 /// A point of the caller in the shape's own frame.

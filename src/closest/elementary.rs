@@ -5,12 +5,22 @@
 //!   carrier's nearest place -> piece, parameters -> a Newton step or two -> a foot that attains it
 //! ```
 //!
-//! A foot that attains the bound is the nearest point, whatever was trimmed away. Where none does (the carrier's place is
-//! trimmed away), or where another could tie (the query is near an axis or a centre), the general search answers.
+//! A foot that attains the bound is the nearest point, whatever was trimmed away. What else is as near lies around it, or
+//!
+//! ```text
+//!   near an axis   turned into the half plane of the query, no point comes farther: what ties is around the foot there,
+//!                  and the distance falls all the way to it: no other foot
+//!   on an axis     or in a centre: the distance is the same along the flat direction, a continuum
+//! ```
+//!
+//! Where no foot attains the bound (the carrier's place is trimmed away), or where another could tie, the general search
+//! answers.
 
+use super::proof::{LEVEL, Proof, Site};
 use super::{FootPoint, flag};
 use crate::analytic::{Analytic, Place};
 use crate::bounds::{Vector, norm};
+use crate::jet::Jet1;
 
 /// Queries farther than this are left to the general search: the place has few digits left.
 const FAR: f64 = 1e6;
@@ -30,7 +40,7 @@ pub const BESIDE_EDGE: f64 = 1e-6;
 pub const ON_EDGE: f64 = 1e-13;
 
 /// What the carrier says about a query.
-pub struct Prospect {
+pub struct Prospect<'a> {
     /// Nothing on the shape is nearer.
     pub lower: f64,
     /// Where a foot should be.
@@ -38,12 +48,13 @@ pub struct Prospect {
     /// Its local parameters, nearly.
     pub at: [f64; 2],
     place: Place,
-    deviation: f64,
+    analytic: &'a Analytic,
+    query: Vector,
 }
 
-impl Prospect {
+impl<'a> Prospect<'a> {
     /// What the carrier says about a query, in the index's coordinates.
-    pub fn new(analytic: &Analytic, query: Vector) -> Option<Self> {
+    pub fn new(analytic: &'a Analytic, query: Vector) -> Option<Self> {
         let size = norm(query);
         if size.is_nan() || size > FAR {
             return None;
@@ -52,29 +63,58 @@ impl Prospect {
         let place = carrier.nearest(query);
         let lower = place.distance - carrier.deviation - carrier.rounding(size);
         let (piece, at) = analytic.locate(&place);
-        let deviation = carrier.deviation;
-        lower.is_finite().then_some(Self { lower: lower.max(0.0), piece, at, place, deviation })
+        lower.is_finite().then_some(Self {
+            lower: lower.max(0.0),
+            piece,
+            at,
+            place,
+            analytic,
+            query,
+        })
     }
 
-    /// Whether a foot at distance `best` is the nearest point, no other foot ties with it, and both are proven; `gap` is
-    /// that of the proof.
+    /// Whether a foot at distance `best` is the nearest point, by a proof with this gap.
     pub fn proves(&self, best: f64, gap: f64) -> bool {
-        let is_trivial = best <= gap;
-        is_trivial || (best - gap <= self.lower && self.is_alone(best, 2.0 * gap))
+        best <= gap || best - gap <= self.lower
     }
 
-    /// Whether what lies within the window of the best distance lies around the foot.
+    /// Whether no other foot ties with one that [`Self::proves`] holds of, because what lies within the window of its
+    /// distance lies around it.
+    pub fn is_alone(&self, best: f64, gap: f64) -> bool {
+        best <= gap || self.is_around(self.place.spread, best, 2.0 * gap)
+    }
+
+    /// Whether no other foot ties, though the query is near an axis: see the head of the module. Not on part of the shape.
+    /// `closed`: along rows, along columns.
+    pub fn falls_to_one(&self, best: f64, gap: f64, closed: [bool; 2]) -> bool {
+        // What the shape rises and falls by off the carrier is below the level of a continuum.
+        let carrier = &self.analytic.carrier;
+        let off = carrier.deviation + carrier.rounding(norm(self.query));
+        2.0 * off <= LEVEL * 2.0 * gap
+            && self.is_around(self.place.meridian, best, 2.0 * gap)
+            && carrier.falls_round(self.query, closed[self.analytic.turning()])
+    }
+
+    /// Whether what lies within the window of the best distance, as far as `spread` tells of it, lies around the foot.
     ///
     /// Points of the shape within the reach, and the foot itself, are within the deviation of points of the carrier that
     /// are around its place; a quarter of the window covers how far distances may be off.
-    fn is_alone(&self, best: f64, window: f64) -> bool {
+    fn is_around(&self, spread: f64, best: f64, window: f64) -> bool {
         let reach = best + window;
+        let deviation = self.analytic.carrier.deviation;
         let around = |distance: f64| {
-            let most = distance + self.deviation + 0.25 * window;
-            (self.place.spread * (most - self.lower) * (most + self.lower)).sqrt()
+            let most = distance + deviation + 0.25 * window;
+            (spread * (most - self.lower) * (most + self.lower)).sqrt()
         };
-        let apart = around(reach) + around(best) + 2.0 * self.deviation;
+        let apart = around(reach) + around(best) + 2.0 * deviation;
         apart < 0.999 * 8.0 * (window * reach).sqrt()
+    }
+
+    /// The proof of a foot, `d` from the query, as the search for a continuum asks it.
+    pub fn proof(site: Site, d: Vector, gap: f64, flat: Option<[f64; 2]>) -> Proof<'static> {
+        let mut proof = Proof::new(gap, 0, None);
+        proof.offer(site, d, || flat);
+        proof
     }
 
     /// Puts the bound into a record, when the gap is allowed.
@@ -99,6 +139,12 @@ pub fn raise(
     if foot.distance - foot.lower_bound <= allowed {
         foot.flags &= !flag::NOT_PROVEN;
     }
+}
+
+/// Whether a direction is flat, and the derivative along it nothing but rounding: no step along it leads nearer. `noise`:
+/// how far distances may be off.
+pub fn is_level(jet: &Jet1, noise: f64) -> bool {
+    jet.is_flat() && jet.gradient().abs() <= noise * norm(jet.s)
 }
 
 /// A parameter that is within rounding of a side is on it.

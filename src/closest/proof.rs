@@ -12,6 +12,9 @@ const TIE_SHARE: u64 = 16;
 const TIE_STARTS: usize = 16;
 const EVALUATIONS: u32 = 32;
 
+/// Share of the window within which distances along a continuum are the same.
+pub const LEVEL: f64 = 0.015625;
+
 /// Where the best foot lies: a piece and its local parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Site {
@@ -269,7 +272,7 @@ impl<'t> Proof<'t> {
 
     /// Greatest distance that is the same as the least one, rounding apart, in a continuum.
     pub fn level(&self) -> f64 {
-        self.best + 0.015625 * self.window()
+        self.best + LEVEL * self.window()
     }
 
     /// Greatest distance that ties.

@@ -1,6 +1,8 @@
 //! Feet on elementary surfaces.
 
-use super::super::elementary::{BESIDE_EDGE, LAST_STEP, ON_EDGE, OVER, Prospect, STEPS, settled};
+use super::super::elementary::{
+    BESIDE_EDGE, LAST_STEP, ON_EDGE, OVER, Prospect, STEPS, is_level, settled,
+};
 use super::super::proof::Site;
 use super::super::{FootPoint, flag};
 use super::SurfaceSearch;
@@ -31,20 +33,36 @@ impl IndexedSurface {
         let (site, d, taken) = found?;
         let at = search.free_parameters(site);
         let inside = at == search.parameters(site);
-        if !inside || !prospect.proves(norm(d), 0.5 * gap * index.frame.scale) {
+        let half = 0.5 * gap * index.frame.scale;
+        if !inside || !prospect.proves(norm(d), half) {
             return None;
         }
+        let alone = prospect.is_alone(norm(d), half);
+        let flags = if alone { 0 } else { search.among_others(&prospect, site, d, half)? };
         let mut foot = self.foot_at(index, query, at, search.range);
         if !prospect.certify(&mut foot, index.frame.scale, allowed) {
             return None;
         }
         foot.iterations = taken;
-        foot.flags &= !flag::NOT_PROVEN;
+        foot.flags = foot.flags & !flag::NOT_PROVEN | flags;
         Some(foot)
     }
 }
 
 impl SurfaceSearch<'_> {
+    /// The flags of a foot beside which others are as near; none where the general search has to tell.
+    fn among_others(&self, prospect: &Prospect, site: Site, d: Vector, gap: f64) -> Option<u32> {
+        let query = sub(self.query, self.index.patches[site.piece].center);
+        let jet = self.index.net(site.piece).jet(site.at[0], site.at[1], query);
+        let flat = jet.flat_direction().or_else(|| self.flat_at_border(site));
+        let proof = Prospect::proof(site, d, gap, flat);
+        if flat.is_some_and(|v| self.is_continuum(site, v, &proof)) {
+            return Some(flag::CONTINUUM | flag::TIE);
+        }
+        let whole = self.options.domain.is_none();
+        (whole && prospect.falls_to_one(norm(d), gap, self.index.closed)).then_some(0)
+    }
+
     /// As [`Self::parameters`], wherever the restriction ends.
     fn free_parameters(&self, site: Site) -> [f64; 2] {
         let patch = &self.index.patches[site.piece];
@@ -81,11 +99,15 @@ impl SurfaceSearch<'_> {
         let (index, piece) = (self.index, start.piece);
         let outer = self.outer(piece);
         let view = (index.net(piece), sub(self.query, index.patches[piece].center));
+        let noise = self.noise();
         let mut at = start.at;
         for taken in 1..=STEPS {
             let jet = view.0.jet(at[0], at[1], view.1);
             let (g, h) = (jet.gradient(), jet.hessian());
             let held = [0, 1].map(|k| {
+                if is_level(&jet.along(k), noise) {
+                    return true;
+                }
                 let low = outer[2 * k] && at[k] == 0.0 && g[k] >= 0.0;
                 let high = outer[2 * k + 1] && at[k] == 1.0 && g[k] <= 0.0;
                 !index.closed[k] && (low || high)

@@ -19,7 +19,7 @@ struct SurfaceGround<'a, 'b> {
 
 impl SurfaceSearch<'_> {
     /// How far a distance may be off that is formed from the caller's shape, in the index's lengths.
-    fn noise(&self) -> f64 {
+    pub(super) fn noise(&self) -> f64 {
         tree_slack(self.query)
     }
 
