@@ -25,7 +25,7 @@ mod segments;
 mod shape;
 
 pub use piece::{Frame, MAX_TENSOR_BYTES, Span, position_error, position_steps, product_steps};
-pub use reach::{Across, CurveReach, RINGS, Reach};
+pub use reach::{Across, CurveReach, Edge, RINGS, Reach};
 pub use segment::Segment;
 pub use segments::CurveIndex;
 pub use shape::{IndexedCurve, IndexedSurface, Poll};

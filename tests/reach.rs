@@ -6,7 +6,7 @@ mod cases;
 
 use cases::{Case, Shape};
 use footpoint::bounds::{Vector, add, cross, dot, norm, scaled, sub};
-use footpoint::index::{IndexedCurve, IndexedSurface, RINGS};
+use footpoint::index::{IndexedCurve, IndexedSurface, RINGS, SurfaceIndex};
 use footpoint::simd::Level;
 
 /// Places on each surface whose bounds are checked, and places that each is checked against, all over and near by.
@@ -34,6 +34,8 @@ struct Place {
     point: Vector,
     normal: Vector,
     outward: [Vector; 4],
+    /// By u and v.
+    tangents: [Vector; 2],
 }
 
 fn place(shape: &IndexedSurface, u: f64, v: f64) -> Place {
@@ -47,6 +49,48 @@ fn place(shape: &IndexedSurface, u: f64, v: f64) -> Place {
         point: index.frame.enter(jet[0]),
         normal: unit(cross(jet[1], jet[2])),
         outward: [scaled(across_u, -1.0), across_u, scaled(across_v, -1.0), across_v],
+        tangents: [1, 2].map(|k| scaled(jet[k], index.frame.scale)),
+    }
+}
+
+/// What is beside a place on a side, or in the corner of two, is bounded for queries outward: checks of those that boxes leave.
+struct Beside {
+    query: Vector,
+    far: f64,
+    /// Unit vector to the query.
+    direction: Vector,
+    bound: f64,
+}
+
+impl Beside {
+    /// A query from a place of patch `k` on sides, where something is known of it.
+    fn new(
+        index: &SurfaceIndex,
+        (here, k, at): (&Place, usize, [f64; 2]),
+        sides: &[usize],
+        random: &mut Random,
+    ) -> Option<Self> {
+        let reach = index.reach.as_ref()?;
+        let size = |random: &mut Random| random.next() * 0.5f64.powi((random.next() * 12.0) as i32);
+        let mut w =
+            scaled(here.normal, size(random) * if random.next() < 0.5 { 1.0 } else { -1.0 });
+        let mut signs = [0.0; 2];
+        for &side in sides {
+            w = add(w, scaled(here.outward[side], 4.0 * size(random)));
+            signs[side / 2] = if side % 2 == 0 { -1.0 } else { 1.0 };
+        }
+        let (query, far) = (add(here.point, w), 1.25 * norm(w));
+        let ring = (random.next() * RINGS as f64) as usize;
+        let (edge, widths) = reach.edge(k, at, sides[0], ring)?;
+        if !reach.holds((k, at), ring, query, far, Level::detect()) {
+            return None;
+        }
+        let patch = &index.patches[k];
+        let spans = [patch.u, patch.v].map(|span| span.ends[1] - span.ends[0]);
+        let fall = [0, 1].map(|d| signs[d] * dot(w, here.tangents[d]) * spans[d] * widths[d]);
+        let corner = (sides.len() == 2).then_some(signs[0] * signs[1]);
+        let bound = edge.asked(w, 0.0, fall, corner) / norm(w);
+        Some(Self { query, far, direction: scaled(w, 1.0 / norm(w)), bound })
     }
 }
 
@@ -66,26 +110,33 @@ fn check(
 }
 
 /// Checks some places of a surface; how many of their bounds say something.
-fn look_at(case: &Case, shape: &IndexedSurface, random: &mut Random) -> [usize; 3] {
+fn look_at(case: &Case, shape: &IndexedSurface, random: &mut Random) -> [usize; 4] {
     let name = &case.name;
     let rounding = 1e-14 * (1.0 + case.magnitude / case.diagonal);
     let index = shape.index(&mut || false).unwrap();
-    let Some(reach) = &index.reach else { return [0; 3] };
+    let Some(reach) = &index.reach else { return [0; 4] };
     let rounding = rounding + reach.gap;
     let [u0, u1, v0, v1] = shape.surface().domain();
-    let (mut finite, mut rings) = (0, 0);
+    let (mut finite, mut rings, mut outside) = (0, 0, 0);
     for n in 0..PLACES {
         let (a, b) = (random.next(), random.next());
-        // A third of them on the sides.
-        let side = (n % 3 == 0).then_some(n / 3 % 4);
-        let on = side;
-        let [a, b] = match side {
-            Some(0) => [0.0, b],
-            Some(1) => [1.0, b],
-            Some(2) => [a, 0.0],
-            Some(_) => [a, 1.0],
-            None => [a, b],
-        };
+        // A third of them on the sides and in the corners.
+        let mut on: Vec<usize> = Vec::new();
+        let [mut a, mut b] = [a, b];
+        if n % 3 == 0 {
+            let ends = [[Some(0.0), None], [Some(1.0), None], [None, Some(0.0)], [None, Some(1.0)]];
+            let corner = |n: usize| [Some((n / 2) as f64), Some((n % 2) as f64)];
+            let round = n / 3 % 8;
+            let [at_a, at_b] = if round < 4 { ends[round] } else { corner(round - 4) };
+            [a, b] = [at_a.unwrap_or(a), at_b.unwrap_or(b)];
+            on.extend(
+                [(a == 0.0, 0), (a == 1.0, 1), (b == 0.0, 2), (b == 1.0, 3)]
+                    .iter()
+                    .filter(|x| x.0)
+                    .map(|x| x.1),
+            );
+        }
+        let side = on.first().copied();
         let mix =
             |x: f64, low: f64, high: f64| if x == 1.0 { high } else { low + x * (high - low) };
         let (u, v) = (mix(a, u0, u1), mix(b, v0, v1));
@@ -116,15 +167,20 @@ fn look_at(case: &Case, shape: &IndexedSurface, random: &mut Random) -> [usize; 
                 let far = 1.25 * height;
                 if reach.holds((k, at), ring, query, far, level) {
                     let bound = reach.near(k, at, ring).unwrap()[side];
-                    let rim =
-                        rim.map(|(outward, _)| (outward, reach.near_rim(k, at, on.unwrap(), ring)));
-                    held.push((query, far, normal, bound, rim));
+                    held.push(Beside { query, far, direction: normal, bound });
                 }
             }
             let least = reach.distance(query, level).unwrap();
             assert!(least <= height + rounding, "{name}: {least} {height}");
         }
-        rings += usize::from(held.iter().any(|held| held.3 < f64::INFINITY));
+        rings += usize::from(held.iter().any(|held| held.bound < f64::INFINITY));
+        if on.iter().all(|&side| reach.sides(k, at)[side]) && !on.is_empty() {
+            let asked =
+                (0..4 * QUERIES).filter_map(|_| Beside::new(index, (&here, k, at), &on, random));
+            let before = held.len();
+            held.extend(asked.filter(|beside| beside.bound < f64::INFINITY));
+            outside += held.len() - before;
+        }
         for m in 0..OTHERS + NEAR {
             let (c, d) = (random.next(), random.next());
             let (c, d) = if m < OTHERS {
@@ -141,35 +197,32 @@ fn look_at(case: &Case, shape: &IndexedSurface, random: &mut Random) -> [usize; 
             if let Some((outward, bound)) = rim {
                 check(name, outward, way, bound, rounding);
             }
-            for &(query, far, normal, bound, rim) in &held {
+            for &Beside { query, far, direction, bound } in &held {
                 if norm(sub(there, query)) < far - rounding[0] {
-                    check(name, normal, way, bound, rounding);
-                    if let Some((outward, bound)) = rim {
-                        check(name, outward, way, bound, rounding);
-                    }
+                    check(name, direction, way, bound, rounding);
                 }
             }
         }
     }
-    [finite, rings, PLACES]
+    [finite, rings, PLACES, outside]
 }
 
 #[test]
 fn no_place_of_the_cases_lies_in_a_ball_that_a_bound_allows() {
     let mut random = Random(0x666f_6f74);
-    let mut sum = [0; 3];
+    let mut sum = [0; 4];
     for folder in cases::folders() {
         let case = cases::read(&folder);
         if let Shape::Surface(shape) = &case.shape {
             let index = shape.index(&mut || false).unwrap();
             if index.patches.len() <= 1000 {
                 let found = look_at(&case, shape, &mut random);
-                sum = [0, 1, 2].map(|k| sum[k] + found[k]);
+                sum = [0, 1, 2, 3].map(|k| sum[k] + found[k]);
             }
         }
     }
-    println!("bounds of all, of rings, places: {sum:?}");
-    assert!(sum[2] == 0 || 4 * sum[0].min(sum[1]) > sum[2], "{sum:?}");
+    println!("bounds of all, of rings, places, queries outside: {sum:?}");
+    assert!(sum[2] == 0 || 4 * sum[0].min(sum[1]) > sum[2] && sum[3] > sum[2], "{sum:?}");
 }
 
 /// Checks some places of a curve for vectors across it; how many of their bounds say something.

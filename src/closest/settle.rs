@@ -4,7 +4,7 @@ use super::certificate::slope_error;
 use super::proof::Site;
 use crate::bezier::Bidegree;
 use crate::bounds::{HALF_ULP, Vector, cross, dot, norm, scaled, sub};
-use crate::index::{Across, CurveReach, RINGS, Reach};
+use crate::index::{Across, CurveReach, Edge, RINGS, Reach};
 use crate::jet::{Jet1, Jet2};
 use crate::simd::{Kernel, Lanes, Level, Row, Simd, WIDTH};
 
@@ -26,47 +26,48 @@ pub fn settled(
     around: Option<Around>,
 ) -> Option<f64> {
     let Site { piece: k, at } = site;
-    let Sides::Inside(side) = Sides::of(reach, site) else { return None };
-    let all =
-        Ask { bends: reach.bend(k, at), rim: side.map_or(0.0, |side| reach.rim(k, at, side)) };
-    let near = |ring: usize| {
-        let rim = side.map_or(0.0, |side| reach.near_rim(k, at, side, ring));
-        reach.near(k, at, ring).map(|bends| Ask { bends, rim })
-    };
+    let ends = ends(reach, site);
+    let side = (0..4).find(|side| ends[side / 2] == Some(side % 2 == 1));
+    let is_corner = ends.iter().all(Option::is_some);
+    let rim = side.map_or(0.0, |side| reach.rim(k, at, side));
+    let all = Ask { bends: reach.bend(k, at), rim };
+    let near = |ring: usize| reach.near(k, at, ring).map(|bends| Ask { bends, rim: 0.0 });
     let distance = norm(jet.d);
     let is_hopeless = |ask: &Ask| ask.is_hopeless(distance + position, side);
-    let around = around.filter(|_| near(0).is_some_and(|ask| !is_hopeless(&ask)));
-    if around.is_none() && is_hopeless(&all) {
+    let around = around.filter(|_| match side {
+        None => near(0).is_some_and(|ask| !is_hopeless(&ask)),
+        Some(side) => reach.edge(k, at, side, 0).is_some(),
+    });
+    if around.is_none() && (is_corner || is_hopeless(&all)) {
         return None;
     }
     let look = Look::new([jet.d, jet.s, jet.t], jet.w[0], position, [degree.s, degree.t]);
-    let bound = |ask: Ask| {
-        let bound = bound_by(&look, jet, position, side, ask, [reach.kink, reach.gap]);
-        // Not where the iteration has left more than the gap.
-        bound.filter(|b| *b >= distance - gap)
-    };
-    bound(all).or_else(|| {
+    let seams = [reach.kink, reach.gap];
+    // Not where the iteration has left more than the gap.
+    let enough = |bound: &f64| *bound >= distance - gap;
+    let bound = |ask: Ask| bound_by(&look, jet, position, side, ask, seams).filter(enough);
+    let of_all = if is_corner { None } else { bound(all) };
+    of_all.or_else(|| {
         let (query, far, level) = around?;
+        let in_ring = |ring: usize| match side {
+            None => near(ring).and_then(bound),
+            Some(side) => {
+                let (edge, widths) = reach.edge(k, at, side, ring)?;
+                let bound = bound_by_edge(&look, jet, position, ends, (edge, widths), seams);
+                bound.filter(enough)
+            }
+        };
         // The widest ring that settles leaves least to the boxes.
-        let mut rings = (0..RINGS).rev().map(|ring| (ring, near(ring).and_then(bound)));
+        let mut rings = (0..RINGS).rev().map(|ring| (ring, in_ring(ring)));
         let (ring, bound) = rings.find(|(_, bound)| bound.is_some())?;
         bound.filter(|_| reach.holds((k, at), ring, query, far, level))
     })
 }
 
-/// The side of the surface on which a place lies, if there is one only.
-enum Sides {
-    Inside(Option<usize>),
-    Corner,
-}
-
-impl Sides {
-    fn of(reach: &Reach, Site { piece, at }: Site) -> Self {
-        let sides = reach.sides(piece, at);
-        let side = (0..4).find(|&side| sides[side]);
-        let is_corner = side.is_some_and(|side| (side + 1..4).any(|other| sides[other]));
-        if is_corner { Self::Corner } else { Self::Inside(side) }
-    }
+/// On which ends of the surface's parameters a place lies: the last ones or not.
+fn ends(reach: &Reach, Site { piece, at }: Site) -> [Option<bool>; 2] {
+    let sides = reach.sides(piece, at);
+    [0, 1].map(|k| if sides[2 * k] { Some(false) } else { sides[2 * k + 1].then_some(true) })
 }
 
 /// Bounds K of the cell of a place: for queries on the side of the normal and on the other, and for the conormal where it lies on a
@@ -118,6 +119,55 @@ fn bound_by(
     let aside = aside + if out < off { 2.0 * off } else { 0.0 };
     let asked = (height.abs() + off) * look.bend(ask.bends) + (out + off) * ask.rim;
     closed(closing([d, asked, aside, position], seams))
+}
+
+/// The bound that what is around a place on a side or in a corner gives, for the one query; see [`Edge`].
+///
+/// On a side `q - f = w + e`, e along it and `w.S_k = 0` for the parameter along it. In a corner there is no e.
+fn bound_by_edge(
+    look: &Look<f64>,
+    jet: &Jet2,
+    position: f64,
+    ends: [Option<bool>; 2],
+    (edge, widths): (&Edge, [f64; 2]),
+    seams: [f64; 2],
+) -> Option<f64> {
+    let &Look { d, slacks, speeds, off, .. } = look;
+    let tangents = [jet.s, jet.t];
+    // The jet looks from the query to the foot: inward the distance grows.
+    let inward = |last: bool| if last { -1.0 } else { 1.0 };
+    let (mut fall, mut lost, mut corner) = ([0.0; 2], 0.0, None);
+    match ends {
+        [Some(a), Some(b)] => {
+            for (k, last) in [a, b].into_iter().enumerate() {
+                let slack = (slacks[k] + position) * speeds[k];
+                fall[k] = inward(last) * dot(jet.d, tangents[k]) - slack;
+            }
+            corner = Some(inward(a) * inward(b));
+        }
+        [Some(last), None] | [None, Some(last)] => {
+            let k = usize::from(ends[0].is_none());
+            let (across, along) = (tangents[k], tangents[1 - k]);
+            let rest = sub(across, scaled(along, dot(across, along) / dot(along, along)));
+            let out = inward(last) * dot(jet.d, rest) / norm(rest);
+            lost = dot(jet.d, along).abs() / speeds[1 - k] + slacks[1 - k];
+            if out < off {
+                // An outward part that may be none may also be an inward one.
+                lost += 2.0 * off;
+            }
+            fall[k] = (out - off).max(0.0) * norm(rest);
+            if out.is_nan() || out < 0.0 {
+                return None;
+            }
+        }
+        [None, None] => return None,
+    }
+    if !fall.iter().all(|fall| *fall >= 0.0) {
+        return None;
+    }
+    let fall = [0, 1].map(|k| fall[k] * widths[k] * (1.0 - 1e-9));
+    let asked = edge.asked(scaled(jet.d, -1.0), position + lost, fall, corner);
+    closed(closing([d, asked, lost, position], seams))
 }
 
 /// What the jet of a place, or lane by lane of many, says about the query.

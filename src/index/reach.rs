@@ -25,6 +25,7 @@
 mod arc;
 mod cell;
 mod curve;
+mod edge;
 mod field;
 mod groups;
 mod joints;
@@ -41,6 +42,7 @@ use crate::simd::Level;
 use crate::tree::Tree;
 pub use cell::{Cell, push_cells};
 pub use curve::{Across, Chain, CurveReach};
+pub use edge::Edge;
 pub use field::RINGS;
 use field::{Field, STRAIGHT, WIDEST};
 use joints::Joints;
@@ -207,9 +209,18 @@ impl Reach {
         is_there.then(|| self.rings.bend(self.raster.cell(self.patch(k), at), ring))
     }
 
-    /// As [`Self::rim`], where [`Self::near`] says something.
-    pub fn near_rim(&self, k: usize, at: [f64; 2], side: usize, ring: usize) -> f64 {
-        self.rings.rim(self.raster.cell(self.patch(k), at), side, ring)
+    /// What is in a ring around the cell of a place of patch `k` on side `side` of the surface, where something is known;
+    /// and the widths of the cell in the local parameters.
+    pub fn edge(
+        &self,
+        k: usize,
+        at: [f64; 2],
+        side: usize,
+        ring: usize,
+    ) -> Option<(&Edge, [f64; 2])> {
+        let patch = self.patch(k);
+        let edge = self.rings.edge(self.raster.cell(patch, at), side, ring)?;
+        Some((edge, self.raster.split(patch).map(|n| 1.0 / n as f64)))
     }
 
     /// Whether everything nearer to a query than `reach` lies in a ring around the cell of a place and those within, where

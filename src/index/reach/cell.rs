@@ -10,18 +10,25 @@ use crate::index::piece::{position_error, position_steps};
 /// Sizes of tangents whose squares keep their digits.
 const PLAIN: std::ops::Range<f64> = 1e-100..1e100;
 
-/// Second derivatives in a cell: least and greatest part along the cell's normal, greatest size.
+/// Second derivatives in a cell: least and greatest part along the cell's normal, greatest size; a ball around them.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Bend {
     pub along: [f64; 2],
     pub size: f64,
+    pub mean: Vector,
+    pub apart: f64,
 }
 
 impl Bend {
     fn shrunk(self, by: f64) -> Self {
         let [low, high] = self.along.map(|x| x / by);
         let slack = 1e-12 * self.size / by;
-        Self { along: [low - slack, high + slack], size: self.size / by * MARGIN }
+        Self {
+            along: [low - slack, high + slack],
+            size: self.size / by * MARGIN,
+            mean: scaled(self.mean, 1.0 / by),
+            apart: self.apart / by * MARGIN + slack,
+        }
     }
 }
 
@@ -161,8 +168,8 @@ struct Slopes {
     /// Coefficients of Q_u, of Q_v, and their bidegrees.
     nets: [Vec<Vector>; 2],
     orders: [Bidegree; 2],
-    /// Greatest change of the weight by u, by v.
-    rates: [f64; 2],
+    /// Least and greatest change of the weight by u, by v.
+    rates: [[f64; 2]; 2],
     /// Least and greatest weight.
     weights: [f64; 2],
 }
@@ -177,7 +184,7 @@ impl Slopes {
             degrees,
             nets: Default::default(),
             orders: [degree.lowered(0), degree.lowered(1)],
-            rates: [0.0; 2],
+            rates: [[0.0; 2]; 2],
             weights: [1.0; 2],
         };
         for k in 0..2 {
@@ -189,7 +196,7 @@ impl Slopes {
             if rational {
                 let mut slope = Vec::new();
                 derivative(w, degree, k, &mut slope);
-                out.rates[k] = slope.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+                out.rates[k] = extent(slope.iter().copied());
                 slopes = quotient(xyz, w, degree, slopes, slope, order);
                 out.orders[k] = order.times(degree);
             }
@@ -254,24 +261,41 @@ fn shape(slopes: &Slopes, width: [f64; 2], error: f64) -> Option<Shape> {
     }
     // The chord of an angle with that sine.
     let cone = (2.0 - 2.0 * (1.0 - sine * sine).sqrt()).sqrt() * MARGIN + 1e-12;
-    let rates = [0, 1].map(|k| slopes.rates[k] / (slopes.weights[0] * width[k]) * MARGIN);
+    // Changes of the weight, relative to it: the middle, and how far they are off it.
+    let rates = [0, 1].map(|k| {
+        let [low, high] = slopes.rates[k];
+        let [light, heavy] = slopes.weights;
+        let low = if low < 0.0 { low / light } else { low / heavy };
+        let high = if high < 0.0 { high / heavy } else { high / light };
+        [0.5 * (low + high), 0.5 * (high - low) * MARGIN].map(|x| x / width[k])
+    });
     let bends = [(0, 0), (0, 1), (1, 1)].map(|(k, l)| {
         let order = slopes.orders[k];
         let step = if l == 0 { order.t + 1 } else { 1 };
         let factor = [order.s, order.t][l] as f64 / (width[k] * width[l]);
         let net = &slopes.nets[k];
-        let second = (0..net.len() - step)
+        let second: Vec<Vector> = (0..net.len() - step)
             .filter(|at| l == 0 || (at + 1) % (order.t + 1) != 0)
-            .map(|at| scaled(sub(net[at + step], net[at]), factor));
+            .map(|at| scaled(sub(net[at + step], net[at]), factor))
+            .collect();
         let blur = 4.0 * blur[k] * [order.s, order.t][l] as f64 / width[l];
-        let [low, high] = extent(second.clone().map(|x| dot(x, normal)));
+        let [low, high] = extent(second.iter().map(|x| dot(*x, normal)));
         let by = |x: f64, up: bool| if (x > 0.0) == up { x / least } else { x / most };
-        let turned = 2.0 * rates[l];
-        let size = second.fold(0.0, |most: f64, x| most.max(norm(x))) / least
-            + turned * (norm(tangents[k]) + off[k]);
+        let [rate, uneven_rate] = rates[l];
+        let (turned, speed) = (2.0 * (rate.abs() + uneven_rate), norm(tangents[k]));
+        let size = greatest(&second, norm) / least + turned * (speed + off[k]);
         let slack = turned * off[k] + 1e-9 * size + blur;
         let along = [by(low, false) - slack, by(high, true) + slack];
-        Bend { along, size: size * MARGIN + blur }
+        // Of degree 1 there are none.
+        let center = if second.is_empty() { [0.0; 3] } else { mean(&second) };
+        let apart = greatest(&second, |x| norm(sub(x, center))) + norm(center) / middle * uneven;
+        let apart = apart / least + turned * off[k] + 2.0 * uneven_rate * speed + 1e-9 * size;
+        Bend {
+            along,
+            size: size * MARGIN + blur,
+            mean: sub(scaled(center, 1.0 / middle), scaled(tangents[k], 2.0 * rate)),
+            apart: apart * MARGIN + blur,
+        }
     });
     Some(Shape { tangents, off, normal, cone, bends, width, rims: [0.0; 4] })
 }

@@ -2,6 +2,7 @@
 
 use super::MARGIN;
 use super::cell::{Cell, Shape, angle_factor, relative};
+use super::edge::Edge;
 use super::groups::{Groups, View};
 use super::joints::Joints;
 use super::middles::Middle;
@@ -168,47 +169,71 @@ impl Field {
         let place = place.map(|x| x as isize);
         let cell = self.cell(place);
         let Some(shape) = &cell.shape else { return [[f64::INFINITY; 2]; RINGS] };
-        self.by_rings(place, cell, [0.0; 2], |other| {
-            self.near(shape, place, other).unwrap_or([f64::INFINITY; 2])
+        let (block, mut most, mut inner) = (self.block(place, cell), [0.0f64; 2], None);
+        std::array::from_fn(|ring| {
+            let wide = Self::wide(ring) as isize;
+            for other in Self::ring(block, place, (inner, wide)) {
+                if most.iter().any(|x| *x < f64::INFINITY) {
+                    let asked = self.near(shape, place, other).unwrap_or([f64::INFINITY; 2]);
+                    most = [0, 1].map(|k| most[k].max(asked[k]));
+                }
+            }
+            inner = Some(wide);
+            most
         })
     }
 
-    /// As [`Self::rings`], for the outward conormal of a side.
-    pub fn rim_rings(&self, place: [usize; 2], side: usize) -> [f64; RINGS] {
+    /// What is around a cell on a side of the surface, for each ring and those within.
+    pub fn edges(&self, place: [usize; 2]) -> [Option<Edge>; RINGS] {
         let place = place.map(|x| x as isize);
         let cell = self.cell(place);
-        let rim = cell.shape.as_ref().and_then(|shape| Rim::new(shape, side));
-        let Some(Rim { shape, fall, .. }) = rim else { return [f64::INFINITY; RINGS] };
-        let rings = self.by_rings(place, cell, [0.0; 1], |other| {
-            [self.near_rim(shape, place, other, side / 2, fall).unwrap_or(f64::INFINITY)]
-        });
-        rings.map(|[bound]| bound)
-    }
-
-    /// The greatest of what the cells of each ring and those within ask for.
-    fn by_rings<const N: usize>(
-        &self,
-        place: [isize; 2],
-        cell: &Cell,
-        mut most: [f64; N],
-        near: impl Fn([isize; 2]) -> [f64; N],
-    ) -> [[f64; N]; RINGS] {
+        let Some(shape) = &cell.shape else { return [None; RINGS] };
+        let (mut bends, mut extents, mut least) = (Vec::new(), [0.0f64; 2], [f64::INFINITY; 2]);
+        let mut is_known = true;
         let block = self.block(place, cell);
-        let mut inner = 0;
+        let mut inner = None;
         std::array::from_fn(|ring| {
             let wide = Self::wide(ring) as isize;
-            for i in block[0][0].max(place[0] - wide)..=block[0][1].min(place[0] + wide) {
-                for j in block[1][0].max(place[1] - wide)..=block[1][1].min(place[1] + wide) {
-                    let apart = (i - place[0]).abs().max((j - place[1]).abs());
-                    let is_new = ring == 0 || apart > inner;
-                    if is_new && most.iter().any(|x| *x < f64::INFINITY) {
-                        let asked = near([i, j]);
-                        most = std::array::from_fn(|k| most[k].max(asked[k]));
-                    }
+            for other in Self::ring(block, place, (inner, wide)) {
+                let found = if is_known { self.between(shape, place, other) } else { None };
+                let Some((tangents, factor, _)) = found else {
+                    is_known = false;
+                    break;
+                };
+                for k in 0..2 {
+                    let speed = factor * norm(tangents[k]) * shape.width[k];
+                    least[k] = least[k].min(speed * speed);
+                    extents[k] = extents[k].max(self.extent(place, other, k)? / shape.width[k]);
                 }
+                bends.push(self.cell(other).shape.as_ref()?.bends);
             }
-            inner = wide;
-            most
+            inner = Some(wide);
+            is_known.then(|| Edge::new(&bends, shape.width, extents, least))
+        })
+    }
+
+    /// How far places of a cell and of another may be apart in direction `k`, in the surface's parameters.
+    fn extent(&self, place: [isize; 2], other: [isize; 2], k: usize) -> Option<f64> {
+        let mut sum = 0.0;
+        for at in place[k].min(other[k])..=place[k].max(other[k]) {
+            let mut on = place;
+            on[k] = at;
+            sum += self.cell(on).shape.as_ref()?.width[k];
+        }
+        Some(sum)
+    }
+
+    /// The places of a block farther from one than the inner ring (if there is one), up to a wider one.
+    fn ring(
+        block: Block,
+        place: [isize; 2],
+        (inner, wide): (Option<isize>, isize),
+    ) -> impl Iterator<Item = [isize; 2]> {
+        let range =
+            move |k: usize| block[k][0].max(place[k] - wide)..=block[k][1].min(place[k] + wide);
+        range(0).flat_map(move |i| range(1).map(move |j| [i, j])).filter(move |at| {
+            let apart = (at[0] - place[0]).abs().max((at[1] - place[1]).abs());
+            inner.is_none_or(|inner| apart > inner)
         })
     }
 
@@ -256,12 +281,8 @@ impl Field {
         for shape in between {
             sizes = [0, 1, 2].map(|n| sizes[n].max(shape.bends[n].size));
         }
-        for d in 0..2 {
-            for at in place[d].min(other[d])..=place[d].max(other[d]) {
-                let mut on = place;
-                on[d] = at;
-                extent[d] += self.cell(on).shape.as_ref()?.width[d];
-            }
+        for (d, extent) in extent.iter_mut().enumerate() {
+            *extent = self.extent(place, other, d)?;
         }
         let speeds = tangents.map(norm);
         let (first, mixed, last) = (sizes[2 - 2 * k], sizes[1], sizes[2 * k]);

@@ -3,6 +3,7 @@
 //! The bounds of the whole surface hold for all queries on the normals of a cell, so they allow for all directions in it. Where
 //! they are too large, those of the cells around may do, and the boxes of the others tell for the one query at hand.
 
+use super::edge::Edge;
 use super::field::{Field, RINGS};
 use super::rounded_up;
 use super::shell::{MOST, Shell};
@@ -18,8 +19,8 @@ pub struct Rings {
     size: [usize; 2],
     /// Of a cell, row by row: for queries on the side of the normal, and on the other.
     bends: Vec<[[f32; 2]; RINGS]>,
-    /// Of the cells along the sides of the surface: for their outward conormals.
-    rims: [Vec<[f32; RINGS]>; 4],
+    /// Of the cells along the sides of the surface.
+    edges: [Vec<[Option<Edge>; RINGS]>; 4],
     /// How many rows before and after, columns before and after a cell the last ring has.
     blocks: Vec<[[u8; 2]; 2]>,
     shell: Shell,
@@ -42,13 +43,12 @@ impl Rings {
             bends.push(rings.map(|ring| ring.map(rounded_up)));
             blocks.push(field.around(place).map(|ends| ends.map(|n| n as u8)));
         }
-        let mut rims: [Vec<[f32; RINGS]>; 4] = Default::default();
-        for (side, list) in rims.iter_mut().enumerate().filter(|(side, _)| !seams[side / 2]) {
+        let mut edges: [Vec<[Option<Edge>; RINGS]>; 4] = Default::default();
+        for (side, list) in edges.iter_mut().enumerate().filter(|(side, _)| !seams[side / 2]) {
             *list = reserved(size[1 - side / 2])?;
-            let cells = (0..size[1 - side / 2]).map(|n| field.on_side(n, side));
-            list.extend(cells.map(|place| field.rim_rings(place, side).map(rounded_up)));
+            list.extend((0..size[1 - side / 2]).map(|n| field.edges(field.on_side(n, side))));
         }
-        Ok(Self { size, bends, rims, blocks, shell: Shell::new(field.boxes())? })
+        Ok(Self { size, bends, edges, blocks, shell: Shell::new(field.boxes())? })
     }
 
     /// Whether there is nothing to look at.
@@ -61,9 +61,9 @@ impl Rings {
         self.bends[row * self.size[1] + column][ring].map(f64::from)
     }
 
-    /// K for the outward conormal of a side in place of the normal.
-    pub fn rim(&self, cell: [usize; 2], side: usize, ring: usize) -> f64 {
-        self.rims[side].get(cell[1 - side / 2]).map_or(f64::INFINITY, |list| f64::from(list[ring]))
+    /// What is in a ring around a cell on a side of the surface and those within, where something is known.
+    pub fn edge(&self, cell: [usize; 2], side: usize, ring: usize) -> Option<&Edge> {
+        self.edges[side].get(cell[1 - side / 2])?[ring].as_ref()
     }
 
     /// Whether everything nearer to a query than `reach` lies in a ring of a cell and those within.
@@ -98,9 +98,9 @@ impl Rings {
             + self.bends.capacity() * size_of::<[[f32; 2]; RINGS]>()
             + self.blocks.capacity() * size_of::<[[u8; 2]; 2]>()
             + self
-                .rims
+                .edges
                 .iter()
-                .map(|list| list.capacity() * size_of::<[f32; RINGS]>())
+                .map(|list| list.capacity() * size_of::<[Option<Edge>; RINGS]>())
                 .sum::<usize>()
     }
 }
