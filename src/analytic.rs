@@ -108,8 +108,6 @@ pub struct Place {
     pub distance: f64,
     /// A carrier's point within `r` of the query is within `sqrt(spread (r^2 - distance^2))` of the place.
     pub spread: f64,
-    /// The same of points in the half plane of the place and the axis: less when the query is near the axis.
-    pub meridian: f64,
     /// The carrier's two coordinates of the place as directions in a plane: an angle is its own direction, a length `x`
     /// is (x, 1).
     pub towards: [[f64; 2]; 2],
@@ -138,7 +136,7 @@ impl Carrier {
         }
         let (a, b) = (self.clamped(x, 0), self.clamped(y, 1));
         let towards = [[a, 1.0], [b, 1.0]];
-        Place { distance: norm([x - a, y - b, z]), spread: 1.0, meridian: 1.0, towards }
+        Place { distance: norm([x - a, y - b, z]), spread: 1.0, towards }
     }
 
     fn clamped(&self, x: f64, k: usize) -> f64 {
@@ -156,20 +154,7 @@ impl Carrier {
         Place {
             distance: length([meridian.distance, end.aside]),
             spread: meridian.spread.max(turned),
-            meridian: meridian.spread,
             towards: [end.direction, meridian.towards],
-        }
-    }
-
-    /// Whether each point of the shape comes no farther from a query when it is turned about the axis into the query's half
-    /// plane, the shorter way, and stays on the shape on this way: the shape is `closed` about the axis, or it ends before
-    /// the opposite half plane on either side.
-    pub fn falls_round(&self, query: Vector, closed: bool) -> bool {
-        let [x, y, _] = self.local(query);
-        match (self.kind, self.sector) {
-            (Kind::Plane | Kind::Line, _) => false,
-            (_, Some(arc)) => arc.beyond([x, y]).is_none() && arc.beyond([-x, -y]).is_some(),
-            (_, None) => closed,
         }
     }
 
@@ -294,11 +279,6 @@ impl Analytic {
         (row * self.columns + column, [s, t])
     }
 
-    /// Which parameter turns about the axis: 0 for rows, 1 for columns.
-    pub fn turning(&self) -> usize {
-        usize::from(!self.rows_first)
-    }
-
     /// Bytes held.
     pub fn memory(&self) -> usize {
         size_of::<Self>() + self.tables.iter().map(Table::memory).sum::<usize>()
@@ -356,7 +336,6 @@ mod tests {
             seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             low + (high - low) * (seed >> 11) as f64 / (1u64 << 53) as f64
         };
-        let mut round_ones = 0;
         for round in 0..2000 {
             let kind = kinds[round % 4];
             let from = random(0.0, 6.0);
@@ -381,42 +360,6 @@ mod tests {
                 let most = place.spread * (over + 1e-13) * (1.0 + 1e-9);
                 assert!(dot(move_, move_) <= most + 1e-13, "{carrier:?} {query:?} {other:?}");
             }
-            // Near the axis: turned into the half plane step by step, a point comes nearer, and what is there is around.
-            let beside = 10.0f64.powf(random(-9.0, -1.0));
-            let bearing = random(0.0, 6.3);
-            let offset = [beside * bearing.cos(), beside * bearing.sin(), random(-1.5, 1.5)];
-            let query =
-                (0..3).fold(carrier.origin, |p, k| add(p, scaled(carrier.axes[k], offset[k])));
-            if !carrier.falls_round(query, false) {
-                continue;
-            }
-            let place = carrier.nearest(query);
-            round_ones += 1;
-            let way = (bearing - from).rem_euclid(std::f64::consts::TAU);
-            assert!(way <= sector[1] - from + 1e-9, "{carrier:?} {query:?}");
-            for _ in 0..20 {
-                let second = match kind {
-                    Kind::Cylinder { .. } | Kind::Cone { .. } => [random(0.2, 0.9), 1.0],
-                    _ => direction(arc[0] + random(0.0, 1.0) * (arc[1] - arc[0])),
-                };
-                let start = random(0.0, sector[1] - from);
-                let turned = |share: f64| {
-                    let other =
-                        point(&carrier, [direction(from + start + share * (way - start)), second]);
-                    sub(other, query)
-                };
-                let distances = [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| norm(turned(share)));
-                assert!(
-                    distances.windows(2).all(|pair| pair[1] <= pair[0] + 1e-14),
-                    "{carrier:?} {query:?} {distances:?}"
-                );
-                let foot = point(&carrier, place.towards);
-                let move_ = sub(sub(foot, query), turned(1.0));
-                let over = distances[4] * distances[4] - place.distance * place.distance;
-                let most = place.meridian * (over + 1e-13) * (1.0 + 1e-9);
-                assert!(dot(move_, move_) <= most + 1e-13, "{carrier:?} {query:?}");
-            }
         }
-        assert!(round_ones > 200, "{round_ones}");
     }
 }

@@ -110,10 +110,17 @@ impl Jet2 {
         }
         let v = if a.abs() * g > c.abs() * e { [-b, a] } else { [c, -b] };
         let size = v[0].abs().max(v[1].abs());
-        let scale = a.abs().max(b.abs()).max(c.abs());
+        // Each by the metric: one tangent may be much shorter than the other.
+        let is_zero =
+            a.abs() <= FLAT * e && c.abs() <= FLAT * g && b.abs() <= FLAT * (e * g).sqrt();
+        let speeds = [e.sqrt(), g.sqrt()];
+        let part = (v[0].abs() * speeds[0]).max(v[1].abs() * speeds[1]);
         // All zero but for rounding: every direction is flat.
-        let within = |x: f64| if x.abs() <= FLAT * size { 0.0 } else { x / size };
-        Some(if scale <= FLAT * (e + g) { [1.0, 0.0] } else { v.map(within) })
+        let snapped = [0, 1].map(|k| {
+            let is_small = v[k].abs() * speeds[k] <= FLAT * part;
+            if is_small { 0.0 } else { v[k] / size }
+        });
+        Some(if is_zero { [1.0, 0.0] } else { snapped })
     }
 
     /// First fundamental form: E, F, G.

@@ -134,6 +134,8 @@ fn agree(
     // The general search may leave open what closed forms decide, never the other way round. Where these do not decide, the
     // search of an elementary shape knows less than that of others, of which feet are known to be alone.
     let more = ours.flags & flag::TIE & !general.flags;
+    let fewer = general.flags & flag::TIE & !ours.flags;
+    assert!(fewer == 0 || !is_closed, "{} {ours:?} {general:?}", context());
     if general.flags & flag::TIE & !ours.flags != 0 && is_closed {
         eprintln!("LESS {} {ours:?} {general:?}", context());
     }
@@ -166,7 +168,7 @@ fn elementary_surfaces_in_any_form_are_recognised_and_answered_like_any_other() 
     let mut random = Random(4);
     let mut closed_forms = 0;
     let (mut asked_in_all, mut missed) = (0, 0);
-    let (mut beside_axes, mut closed_there) = (0, 0);
+    let (mut continua, mut closed_there) = (0, 0);
     let rounds = 1500;
     for round in 0..rounds {
         let scale = [1.0, 1.0, 1e-6, 1e6][random.whole(0, 3)];
@@ -201,15 +203,15 @@ fn elementary_surfaces_in_any_form_are_recognised_and_answered_like_any_other() 
             assert!(a.distance >= least * (1.0 - 1e-13) - floor, "{} {a:?} {least}", context());
             closed_forms += usize::from(a.iterations <= 2);
             asked_in_all += 1;
-            if name != "plane" && length(p[0], p[1]) < 1e-3 {
-                beside_axes += 1;
+            if a.flags & b.flags & flag::CONTINUUM != 0 {
+                continua += 1;
                 closed_there += usize::from(a.iterations <= STEPS);
             }
         }
     }
     assert!(missed * 200 <= rounds, "{missed}");
     assert!(2 * closed_forms > asked_in_all, "{closed_forms} of {asked_in_all}");
-    assert!(3 * closed_there > 2 * beside_axes, "{closed_there} of {beside_axes}");
+    assert!(4 * closed_there > 3 * continua && continua > 500, "{closed_there} of {continua}");
 }
 
 /// A point of the caller in the shape's own frame.

@@ -5,18 +5,12 @@
 //!   carrier's nearest place -> piece, parameters -> a Newton step or two -> a foot that attains it
 //! ```
 //!
-//! A foot that attains the bound is the nearest point, whatever was trimmed away. What else is as near lies around it, or
-//!
-//! ```text
-//!   near an axis   turned into the half plane of the query, no point comes farther: what ties is around the foot there,
-//!                  and the distance falls all the way to it: no other foot
-//!   on an axis     or in a centre: the distance is the same along the flat direction, a continuum
-//! ```
-//!
-//! Where no foot attains the bound (the carrier's place is trimmed away), or where another could tie, the general search
-//! answers.
+//! A foot that attains the bound is the nearest point, whatever was trimmed away. What else is as near lies around it; or, on
+//! an axis and in a centre, the distance is the same along the flat direction: a continuum. Where no foot attains the bound (the
+//! carrier's place is trimmed away), or where another could tie (the query is near an axis or a centre, but not on it), the
+//! general search answers.
 
-use super::proof::{LEVEL, Proof, Site};
+use super::proof::{Proof, Site};
 use super::{FootPoint, flag};
 use crate::analytic::{Analytic, Place};
 use crate::bounds::{Vector, norm};
@@ -40,7 +34,7 @@ pub const BESIDE_EDGE: f64 = 1e-6;
 pub const ON_EDGE: f64 = 1e-13;
 
 /// What the carrier says about a query.
-pub struct Prospect<'a> {
+pub struct Prospect {
     /// Nothing on the shape is nearer.
     pub lower: f64,
     /// Where a foot should be.
@@ -48,13 +42,12 @@ pub struct Prospect<'a> {
     /// Its local parameters, nearly.
     pub at: [f64; 2],
     place: Place,
-    analytic: &'a Analytic,
-    query: Vector,
+    deviation: f64,
 }
 
-impl<'a> Prospect<'a> {
+impl Prospect {
     /// What the carrier says about a query, in the index's coordinates.
-    pub fn new(analytic: &'a Analytic, query: Vector) -> Option<Self> {
+    pub fn new(analytic: &Analytic, query: Vector) -> Option<Self> {
         let size = norm(query);
         if size.is_nan() || size > FAR {
             return None;
@@ -63,14 +56,8 @@ impl<'a> Prospect<'a> {
         let place = carrier.nearest(query);
         let lower = place.distance - carrier.deviation - carrier.rounding(size);
         let (piece, at) = analytic.locate(&place);
-        lower.is_finite().then_some(Self {
-            lower: lower.max(0.0),
-            piece,
-            at,
-            place,
-            analytic,
-            query,
-        })
+        let deviation = carrier.deviation;
+        lower.is_finite().then_some(Self { lower: lower.max(0.0), piece, at, place, deviation })
     }
 
     /// Whether a foot at distance `best` is the nearest point, by a proof with this gap.
@@ -78,35 +65,22 @@ impl<'a> Prospect<'a> {
         best <= gap || best - gap <= self.lower
     }
 
-    /// Whether no other foot ties with one that [`Self::proves`] holds of, because what lies within the window of its
-    /// distance lies around it.
-    pub fn is_alone(&self, best: f64, gap: f64) -> bool {
-        best <= gap || self.is_around(self.place.spread, best, 2.0 * gap)
-    }
-
-    /// Whether no other foot ties, though the query is near an axis: see the head of the module. Not on part of the shape.
-    /// `closed`: along rows, along columns.
-    pub fn falls_to_one(&self, best: f64, gap: f64, closed: [bool; 2]) -> bool {
-        // What the shape rises and falls by off the carrier is below the level of a continuum.
-        let carrier = &self.analytic.carrier;
-        let off = carrier.deviation + carrier.rounding(norm(self.query));
-        2.0 * off <= LEVEL * 2.0 * gap
-            && self.is_around(self.place.meridian, best, 2.0 * gap)
-            && carrier.falls_round(self.query, closed[self.analytic.turning()])
-    }
-
-    /// Whether what lies within the window of the best distance, as far as `spread` tells of it, lies around the foot.
+    /// Whether no other foot ties with one that [`Self::proves`] holds of: what lies within the window of its distance lies
+    /// around it.
     ///
     /// Points of the shape within the reach, and the foot itself, are within the deviation of points of the carrier that
     /// are around its place; a quarter of the window covers how far distances may be off.
-    fn is_around(&self, spread: f64, best: f64, window: f64) -> bool {
+    pub fn is_alone(&self, best: f64, gap: f64) -> bool {
+        if best <= gap {
+            return true;
+        }
+        let window = 2.0 * gap;
         let reach = best + window;
-        let deviation = self.analytic.carrier.deviation;
         let around = |distance: f64| {
-            let most = distance + deviation + 0.25 * window;
-            (spread * (most - self.lower) * (most + self.lower)).sqrt()
+            let most = distance + self.deviation + 0.25 * window;
+            (self.place.spread * (most - self.lower) * (most + self.lower)).sqrt()
         };
-        let apart = around(reach) + around(best) + 2.0 * deviation;
+        let apart = around(reach) + around(best) + 2.0 * self.deviation;
         apart < 0.999 * 8.0 * (window * reach).sqrt()
     }
 

@@ -31,7 +31,7 @@ impl IndexedCurve {
             return None;
         }
         let alone = prospect.is_alone(norm(d), half);
-        let flags = if alone { 0 } else { search.among_others(&prospect, site, d, half)? };
+        let flags = if alone { 0 } else { search.among_others(site, d, half)? };
         let mut foot = self.foot_at(index, query, u, search.range);
         if !prospect.certify(&mut foot, index.frame.scale, allowed) {
             return None;
@@ -44,15 +44,11 @@ impl IndexedCurve {
 
 impl CurveSearch<'_> {
     /// The flags of a foot beside which others are as near; none where the general search has to tell.
-    fn among_others(&self, prospect: &Prospect, site: Site, d: Vector, gap: f64) -> Option<u32> {
+    fn among_others(&self, site: Site, d: Vector, gap: f64) -> Option<u32> {
         let query = sub(self.query, self.index.segments[site.piece].center);
         let flat = self.index.net(site.piece).jet(site.at[0], query).is_flat();
         let proof = Prospect::proof(site, d, gap, flat.then_some([1.0, 0.0]));
-        if flat && self.is_continuum(site, &proof) {
-            return Some(flag::CONTINUUM | flag::TIE);
-        }
-        let (whole, closed) = (self.options.domain.is_none(), [self.index.closed, false]);
-        (whole && prospect.falls_to_one(norm(d), gap, closed)).then_some(0)
+        (flat && self.is_continuum(site, &proof)).then_some(flag::CONTINUUM | flag::TIE)
     }
 
     /// Newton steps in the piece of `start`: the foot, its vector from the query, the evaluations. None when they leave

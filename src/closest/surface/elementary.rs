@@ -38,7 +38,7 @@ impl IndexedSurface {
             return None;
         }
         let alone = prospect.is_alone(norm(d), half);
-        let flags = if alone { 0 } else { search.among_others(&prospect, site, d, half)? };
+        let flags = if alone { 0 } else { search.among_others(site, d, half)? };
         let mut foot = self.foot_at(index, query, at, search.range);
         if !prospect.certify(&mut foot, index.frame.scale, allowed) {
             return None;
@@ -51,16 +51,13 @@ impl IndexedSurface {
 
 impl SurfaceSearch<'_> {
     /// The flags of a foot beside which others are as near; none where the general search has to tell.
-    fn among_others(&self, prospect: &Prospect, site: Site, d: Vector, gap: f64) -> Option<u32> {
+    fn among_others(&self, site: Site, d: Vector, gap: f64) -> Option<u32> {
         let query = sub(self.query, self.index.patches[site.piece].center);
         let jet = self.index.net(site.piece).jet(site.at[0], site.at[1], query);
         let flat = jet.flat_direction().or_else(|| self.flat_at_border(site));
         let proof = Prospect::proof(site, d, gap, flat);
-        if flat.is_some_and(|v| self.is_continuum(site, v, &proof)) {
-            return Some(flag::CONTINUUM | flag::TIE);
-        }
-        let whole = self.options.domain.is_none();
-        (whole && prospect.falls_to_one(norm(d), gap, self.index.closed)).then_some(0)
+        let is_continuum = flat.is_some_and(|v| self.is_continuum(site, v, &proof));
+        is_continuum.then_some(flag::CONTINUUM | flag::TIE)
     }
 
     /// As [`Self::parameters`], wherever the restriction ends.

@@ -50,8 +50,8 @@ impl Edge {
             let far = |bend: &[Bend; 3]| norm(sub(bend[n].mean, mean)) + bend[n].apart;
             let radius = bends.iter().map(far).fold(0.0, f64::max);
             let radius = (radius + SINGLE * norm(mean)) * by;
-            // What is no number says nothing.
-            let is_known = mean.iter().all(|x| x.is_finite()) && radius.is_finite();
+            // What is no number says nothing; a maximum would leave it out.
+            let is_known = bends.iter().all(|bend| far(bend).is_finite()) && radius.is_finite();
             out.means[n] = mean.map(|x| if is_known { (x * by) as f32 } else { 0.0 });
             out.radii[n] = if is_known { rounded_up(radius) } else { f32::INFINITY };
         }
@@ -90,13 +90,17 @@ impl Edge {
         let mut asked = {
             let [a, c] = [a / squares[0], c / squares[1]];
             let (b, half) = (mixed / (squares[0] * squares[1]).sqrt(), 0.5 * (a - c));
-            (0.5 * (0.5 * (a + c) + (half * half + b * b).sqrt()) * MARGIN).max(0.0)
+            0.5 * (0.5 * (a + c) + (half * half + b * b).sqrt()) * MARGIN
         };
+        if asked.is_nan() {
+            return f64::INFINITY;
+        }
+        asked = asked.max(0.0);
         for k in 0..2 {
             if left[k] >= mixed * extents[1 - k] * MARGIN {
                 asked = asked.min(0.5 * bends[1 - k] / squares[1 - k] * MARGIN);
             }
         }
-        if asked.is_nan() { f64::INFINITY } else { asked }
+        asked
     }
 }
