@@ -121,6 +121,42 @@ fn centres_and_axes_are_continua() {
     }
 }
 
+/// A cylinder of radius 1 from z = 0 whose upper rim has these heights at the poles; `swapped`: u is the height.
+fn wall(heights: [f64; 9], swapped: bool) -> Shape {
+    let sides = [[0.0; 9], heights];
+    let pole = |n: usize, k: usize| [RING[k][0], RING[k][1], sides[n][k]];
+    let line = [0., 0., 1., 1.];
+    let rows: Vec<(usize, usize)> = if swapped {
+        (0..2).flat_map(|n| (0..9).map(move |k| (n, k))).collect()
+    } else {
+        (0..9).flat_map(|k| (0..2).map(move |n| (n, k))).collect()
+    };
+    let poles: Vec<Vector> = rows.iter().map(|&(n, k)| pole(n, k)).collect();
+    let weights: Vec<f64> = rows.iter().map(|&(_, k)| RING[k][2]).collect();
+    if swapped {
+        surface((&line, &RING_KNOTS), [1, 2], [2, 9], &poles, Some(&weights))
+    } else {
+        surface((&RING_KNOTS, &line), [2, 1], [9, 2], &poles, Some(&weights))
+    }
+}
+
+#[test]
+fn thin_rings_are_continua_and_wavy_rims_are_not() {
+    for swapped in [false, true] {
+        for height in [1.0, 1e-2, 1e-3, 1e-4, 1e-5] {
+            let ring = wall([height; 9], swapped);
+            check("ring", &ring, [0., 0., 0.5 * height], 1.0, BOTH);
+            check("rim", &ring, [0., 0., 2.0], (2.0 - height).hypot(1.0), BOTH);
+        }
+        // Straight to the eye, but two crests are nearest.
+        for wave in [3e-9, 1e-6, 1e-3] {
+            let [top, low] = [1.0 + wave, 1.0 - wave];
+            let wavy = wall([top, 1.0, low, 1.0, top, 1.0, low, 1.0, top], swapped);
+            check("crests", &wavy, [0., 0., 3.0], (3.0 - top).hypot(1.0), flag::TIE);
+        }
+    }
+}
+
 #[test]
 fn a_short_arc_is_a_continuum_too() {
     // Points of the unit circle between the angles -+2 atan(0.01), and its chord's half length as a bulge.
